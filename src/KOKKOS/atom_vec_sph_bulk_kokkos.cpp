@@ -46,7 +46,7 @@ void AtomVecSPHBulkKokkos::add_field(uint64_t mask, View &view, Pointer &pointer
 }
 
 /* ----------------------------------------------------------------------
-   the views are those of the present atomKK, also after replicate has made another one
+   Add the fields; the views are those of the present atomKK, also after replicate has made another one.
 ------------------------------------------------------------------------- */
 
 AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
@@ -81,9 +81,9 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
     add_field(INERTIA_MASK, k_inertia, inertia, OWN, {EXCHANGE});
     add_field(OMEGAEST_MASK, k_omegaest, omegaest, OWN, {COMM, BORDER, EXCHANGE});
   }
-  if (atomKK->k_dvector.extent(0))    // which fix property/atom would grow without our vectors
+  if (atomKK->k_dvector.extent(0))    // fix property/atom would grow it without these vectors
     error->all(FLERR, "This atom style must come before fixes property/atom with d_ names");
-  bonus_flag = 1;        // for the functions of that name
+  bonus_flag = 1;        // LAMMPS calls the functions for bonus data
   forceclearflag = 0;    // the pair style sets desph
   fields_reverse = {};
 }
@@ -118,10 +118,9 @@ AtomVecSPHBulkKokkos &AtomVecSPHBulkKokkos::of(Atom *atom)
 }
 
 /* ----------------------------------------------------------------------
-   CommTiledKokkos::forward_comm_device() of LAMMPS 4 Jul 2026 packs what a processor sends to itself, but
-   unpacks it only with velocities; with them, messages from several processors overlap in the buffer,
-   whose rows it takes to be as long as those of borders() without velocities: so the messages are packed
-   on the host
+   Pack messages on the host with tiled ranks: CommTiledKokkos::forward_comm_device() of LAMMPS 4 Jul 2026 packs messages of
+   a processor to itself, but unpacks them only with velocities; with velocities, messages from several processors overlap in
+   the buffer, since the rows are assumed to be as long as those of borders() without velocities.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::init()
@@ -143,7 +142,7 @@ void AtomVecSPHBulkKokkos::init()
 }
 
 /* ----------------------------------------------------------------------
-   which otherwise the pair style sets: class VerletKokkos does not call force_clear()
+   Set desph to 0 if no pair style does: class VerletKokkos does not call force_clear().
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::clear_heating()
@@ -154,7 +153,7 @@ void AtomVecSPHBulkKokkos::clear_heating()
 }
 
 /* ----------------------------------------------------------------------
-   n = 0 grows arrays by a chunk, n > 0 allocates arrays to size n
+   Grow arrays by a chunk, n = 0, or to size n > 0.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::grow(int n)
@@ -191,8 +190,8 @@ void AtomVecSPHBulkKokkos::grow_pointers()
 }
 
 /* ----------------------------------------------------------------------
-   class AtomKokkos and fix property/atom call these two before and after they move the custom
-   properties, of which ours stay where they are
+   Class AtomKokkos and fix property/atom call sync() and modified() before and after they move the custom properties; those
+   of this class do not move.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::sync(ExecutionSpace space, uint64_t mask)
@@ -224,7 +223,7 @@ void AtomVecSPHBulkKokkos::sync_pinned(ExecutionSpace space, uint64_t mask, int 
 }
 
 /* ----------------------------------------------------------------------
-   what the force computation sets anew is not sorted
+   Sort the fields, but for those that each force computation sets.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)
@@ -298,7 +297,7 @@ void AtomVecSPHBulkKokkos::pack(Occasion occasion, ExecutionSpace space, int n,
 }
 
 /* ----------------------------------------------------------------------
-   task(the columns that are sent, an object of the class that runs where they are) modifies them
+   Call task(columns in this message, object of the class that runs in their space), which modifies the columns.
 ------------------------------------------------------------------------- */
 
 template <class Task>

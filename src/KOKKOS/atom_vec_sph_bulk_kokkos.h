@@ -34,16 +34,16 @@ namespace SPHDissipation {
   struct RowsKokkos;
 }    // namespace SPHDissipation
 
-// The fields that class AtomKokkos has no views for are views of this class.  They travel with the
-// particles by the functions that LAMMPS has for "bonus" data, and have bits of their own in the masks
-// of sync() and modified().  The pair style sums what it leaves with ghost atoms itself.
+// This class has views of the fields for which class AtomKokkos has none.  They migrate with the particles by LAMMPS's
+// functions for "bonus" data, and have their own bits in the masks of sync() and modified().  The pair style sums the forces
+// of ghost atoms itself.
 
 class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
  public:
   AtomVecSPHBulkKokkos(class LAMMPS *, bool spins = false);
   ~AtomVecSPHBulkKokkos() override;
 
-  // the atom style, where the pair style or a fix is one with /kk
+  // Return the atom style, for a pair style or fix with /kk
   static AtomVecSPHBulkKokkos &of(class Atom *);
 
   void process_args(int, char **) override;
@@ -79,14 +79,14 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   tdual_field k_rho, k_drho, k_vfrac, k_esph, k_desph, k_desph_before;
   tdual_field k_rho_sum, k_vol_rate, k_vol_rate_before, k_vol_heat, k_vol_support, k_shear_rate;
   tdual_field_3 k_vest, k_trace;
-  tdual_field k_inertia;    // empty without spins, as the next one
+  tdual_field k_inertia;    // k_inertia and k_omegaest are empty without spins
   tdual_field_3 k_omegaest;
-  tdual_field k_state[SPHDissipation::MOST_STATES];    // empty where there is no room
+  tdual_field k_state[SPHDissipation::MOST_STATES];    // empty without room
 
  private:
   enum Occasion { COMM, BORDER, EXCHANGE, NOCCASION };
 
-  // in the constructor: a field of class AtomKokkos, or one of ours with the messages that it is in
+  // In the constructor: add a field of class AtomKokkos (ATOM), or of this class (OWN) with the messages that have it
 
   enum Owner { ATOM, OWN };
   template <class View, class Pointer>
@@ -94,8 +94,8 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
 
   std::vector<std::unique_ptr<SPHDissipation::FieldKokkos>> fields;
 
-  // own fields of each kind of message, in the order of the strings of the CPU style, so that a
-  // message of the host has the same size
+  // own fields in each kind of message, in the order of the strings of the CPU style, so that a message of the host has the
+  // same size
 
   std::vector<SPHDissipation::FieldKokkos *> sent[NOCCASION];
   uint64_t sent_mask(Occasion) const;

@@ -34,11 +34,11 @@ using namespace SPHDissipation;
 
 static constexpr int NVALUES = 6;    // force and torque
 
-// The atom style leaves out the bits of fields that it does not have.
+// Fields that the motion of a wall changes; the atom style ignores bits of fields that it does not have.
 
 static constexpr uint64_t MOTION = V_MASK | VEST_MASK | OMEGA_MASK;
 
-// vector from the point on the axis of a wall to its particles, as FixSPHWall::from_point()
+// Computes the vector from the point on the axis of a wall to its particles, as FixSPHWall::from_point()
 
 namespace {
 template <class DeviceType> struct FromPoint {
@@ -73,7 +73,7 @@ FixSPHWallKokkos<DeviceType>::FixSPHWallKokkos(LAMMPS *lmp, int narg, char **arg
   exchange_comm_device = sort_device = 1;
   atomKK = (AtomKokkos *) atom;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
+  datamask_read = EMPTY_MASK;    // each function syncs the fields that it reads and modifies
   datamask_modify = EMPTY_MASK;
 
   memory->destroy(array_atom);
@@ -109,7 +109,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup(int vflag)
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate(int /*vflag*/)
 {
   check_set_up(lmp, this, checked);
-  if (motion->has_variables()) atomKK->sync(Host, ALL_MASK);    // which may be of any particles
+  if (motion->has_variables()) atomKK->sync(Host, ALL_MASK);    // variables may read any particles
   const WallVelocity old = motion->velocity();
   motion->advance();
   if (move) motion->move_point();
@@ -149,7 +149,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vflag)
 {
   if (!heat_value->varies() && !gravity_varies()) return;
-  atomKK->sync(Host, ALL_MASK);    // variables may be of any particles
+  atomKK->sync(Host, ALL_MASK);    // variables may read any particles
   FixSPHWall::pre_force(vflag);
   if (!heat_value->is_by_atom()) return;
   if ((int) heat_values.extent(0) < atom->nlocal) renew(heat_values, "sph/wall:heat", atom->nmax);
@@ -243,7 +243,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::find_particles()
 }
 
 /* ----------------------------------------------------------------------
-   It is unknown when array_atom is read, so the host gets it in every step.  On a GPU only the
+   Sum up the forces on the wall.  The host gets array_atom in every step, since any command may read it; on a GPU only the
    values of the wall are copied.
 ------------------------------------------------------------------------- */
 
@@ -265,7 +265,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
   auto f = atomKK->k_f.template view<DeviceType>();
   auto torque = atomKK->k_torque.template view<DeviceType>();
   auto list = particles;
-  EV_FLOAT sums;    // in v
+  EV_FLOAT sums;    // force and torque in v
   Kokkos::parallel_reduce(
       "sph:wall_force", Kokkos::RangePolicy<DeviceType>(0, nparticles),
       KOKKOS_LAMBDA(int k, EV_FLOAT &all) {
@@ -315,7 +315,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   array_atom, on the host and the device
+   Grow, set, and copy array_atom, on the host and the device.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::grow_arrays(int nmax)
@@ -367,8 +367,8 @@ void FixSPHWallKokkos<DeviceType>::sort_kokkos(Kokkos::BinSort<KeyViewType, BinO
 }
 
 /* ----------------------------------------------------------------------
-   particles that leave, those that take their places, and particles that arrive; in the space that
-   LAMMPS communicates on
+   Pack particles that leave, move others to their places, and unpack particles that arrive, in the space of LAMMPS's
+   communication.
 ------------------------------------------------------------------------- */
 
 template <class Space, class Array> static ColumnsKokkos columns_of(Array &array)

@@ -28,8 +28,8 @@ FixStyle(sph/wall/kk/host,FixSPHWallKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// The device does the work of every step; the CPU style does the start of a run, and minimizations,
-// on the host
+// fix sph/wall with the work of every step on the device; the CPU style does the start of a run, and minimizations, on the
+// host
 
 template <class DeviceType>
 class FixSPHWallKokkos :
@@ -63,19 +63,19 @@ class FixSPHWallKokkos :
   void set_boundary_kokkos(const SPHDissipation::BoundaryDataKokkos<DeviceType> &,
                            const SPHDissipation::LoopDataKokkos<DeviceType> &) override;
 
-  void find_particles();    // public because CUDA asks for it of functions with lambdas
+  void find_particles();    // public, because CUDA requires this of functions with lambdas
 
  private:
   Kokkos::DualView<double *[6], Kokkos::LayoutRight, LMPDeviceType> k_array;    // array_atom
-  Kokkos::View<int *, DeviceType> particles;    // owned ones of the wall, of the neighbor list
+  Kokkos::View<int *, DeviceType> particles;    // owned wall particles, since the neighbor list
   int nparticles;
-  // on a GPU: what the host gets of them in each step
+  // on a GPU: values of these particles that the host gets in each step
   static constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
   Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> packed;
   Kokkos::View<double *[6], Kokkos::LayoutRight, Kokkos::HostSpace> values;
   Kokkos::View<int *, Kokkos::HostSpace> numbers;
   Kokkos::View<double *, DeviceType>
-      heat_values;    // by owned particle, if that is how they are given
+      heat_values;    // by owned particle, if heat is a variable of atom style
 };
 
 }    // namespace LAMMPS_NS

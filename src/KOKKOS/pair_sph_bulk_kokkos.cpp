@@ -43,14 +43,14 @@ PairSPHBulkKokkos<DeviceType>::PairSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   kokkosable = 1;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   centroidstressflag = CENTROID_NOTAVAIL;
-  no_virial_fdotr_compute = 1;    // a full list leaves no forces on ghosts
+  no_virial_fdotr_compute = 1;    // with a full list, ghosts have no forces
 }
 
 /* ----------------------------------------------------------------------
-   the one place where the loops are chosen: on a GPU, those for one pair, over full neighbor lists; on
-   the host, those of the CPU style for vectors of pairs, over half lists.  Measured there with one thread
-   at bench/in.bench, time per step over that of LAMMPS's CPU styles: these 0.20, those of a GPU 1.2.
-   The style sph/bulk/kk/device has those of a GPU in any case; tests run it on the host.
+   Choose the loops, here alone: on a GPU, those for single pairs over full neighbor lists; on the host, those of the CPU
+   style for vectors of pairs over half lists.  On the host with one thread and bench/in.bench, the time per step over that
+   of LAMMPS's CPU styles is 0.20 with the loops of the CPU style, 1.2 with those of a GPU.  The style sph/bulk/kk/device
+   always has the loops of a GPU; tests run them on the host.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device() const
@@ -61,7 +61,7 @@ template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device()
 }
 
 /* ----------------------------------------------------------------------
-   what the device cannot do, or empty
+   Return the setting that the device has no code for; empty if there is none.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
@@ -91,7 +91,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
   if (force->pair != this)
     error->all(FLERR, Error::NOLASTLINE, "Pair style {}/kk cannot be used in pair_style hybrid",
                fluid->style);
-  if (neighbor->includegroup)    // which the neighbor lists of KOKKOS ignore
+  if (neighbor->includegroup)    // neighbor lists of KOKKOS ignore the group
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {}/kk cannot be used with neigh_modify include", fluid->style);
   const std::string reason = runs_on_device() ? on_host_because() : "";

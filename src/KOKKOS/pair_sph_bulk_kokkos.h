@@ -31,9 +31,8 @@ namespace SPHDissipation {
   template <class DeviceType> class FluidKokkos;
 }
 
-// LAMMPS's interface to a FluidKokkos.  It chooses in every run where the forces are computed, see
-// runs_on_device(); on a device, code that is not written for it, see on_host_because(), runs on
-// the host with copies of the particles.
+// Interface of LAMMPS to a FluidKokkos.  Chooses in every run between device and host for the forces, see runs_on_device();
+// settings without code for the device, see on_host_because(), run on the host with copies of the particles.
 
 template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public KokkosBase {
  public:

@@ -26,7 +26,7 @@ PairStyle(sph/micropolar/kk/host,PairSPHMicropolarKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// sph/bulk/kk with particles that spin
+// Pair style sph/bulk/kk with particles that spin
 
 template <class DeviceType> class PairSPHMicropolarKokkos : public PairSPHBulkKokkos<DeviceType> {
  public:

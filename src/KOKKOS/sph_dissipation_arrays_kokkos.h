@@ -21,7 +21,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // function(i) for each i < n, on DeviceType
+  // Call function(i) for each i < n, on DeviceType
 
   template <class DeviceType, class Function>
   void for_each(const char *name, int n, const Function &function)
@@ -29,7 +29,7 @@ namespace SPHDissipation {
     Kokkos::parallel_for(name, Kokkos::RangePolicy<DeviceType>(0, n), function);
   }
 
-  // function of an object of the class that runs on the host (HostKK) or the device
+  // Call function with an object of the class that runs on the host (HostKK) or the device
 
   template <class Function> void on(ExecutionSpace space, Function &&function)
   {
@@ -39,7 +39,7 @@ namespace SPHDissipation {
       function(LMPDeviceType());
   }
 
-  // a new array of n entries without values; the old one is freed first
+  // Free the old array, and allocate one of n entries without values
 
   template <class View> void renew(View &view, const char *name, int n)
   {
@@ -47,7 +47,7 @@ namespace SPHDissipation {
     view = View(Kokkos::NoInit(name), n);
   }
 
-  // the same if it has fewer entries; returns the first one
+  // Renew the array if it has fewer than n entries; return a pointer to the first entry
 
   template <class View> auto *reach(View &view, const char *name, int n)
   {

@@ -133,9 +133,8 @@ void BoundaryStageKokkos<DeviceType>::find_rows(const LoopDataKokkos<DeviceType>
 }
 
 /* ----------------------------------------------------------------------
-   Vectors toward the fluid on the device, as SurfaceStage::find_sides(); the rest on the host: it needs
-   pairs of boundary particles, which the neighbor list does not have, only when this is built, and for
-   boundary particles alone
+   Find the surface when the neighbor list is new: vectors toward the fluid on the device, as SurfaceStage::find_sides(); the
+   rest on the host, since it needs pairs of boundary particles, which are not in the neighbor list.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -160,7 +159,7 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
   atomKK->modified(pair->execution_space, VFRAC_MASK);
   atomKK->sync(Host, X_MASK | MASK_MASK | VFRAC_MASK);
   const ExecutionSpace space = pair->execution_space;
-  pair->execution_space = Host;    // where it communicates
+  pair->execution_space = Host;    // communicate on the host
   const Surface *const surface =
       stage.find_surface(std::vector<double>(h_side.data(), h_side.data() + h_side.size()));
   pair->execution_space = space;
@@ -173,7 +172,7 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
 }
 
 /* ----------------------------------------------------------------------
-   as BoundaryStage::set_excess(): on the device, no boundary has symmetric friction
+   Set the excess of all boundary particles: on the device, no boundary has symmetric friction.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -194,7 +193,7 @@ void BoundaryStageKokkos<DeviceType>::set_excess(LoopDataKokkos<DeviceType> &dat
 }
 
 /* ----------------------------------------------------------------------
-   each boundary particle sums up its own fluid
+   Sum up the fluid around each owned boundary particle.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -247,8 +246,8 @@ void BoundaryStageKokkos<DeviceType>::add_surface_heat(const LoopDataKokkos<Devi
 }
 
 /* ----------------------------------------------------------------------
-   how much of the support of a particle of the fluid boundary particles fill; the first particle that is inside a wall
-   stops the run
+   Find the parts of the near and contact supports of fluid particles that boundary particles fill; stop the run at the first
+   particle inside a wall.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>

@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_BOUNDARY_KOKKOS_H
 #define LMP_SPH_DISSIPATION_BOUNDARY_KOKKOS_H
 
-// Boundary particles on the device, as class BoundaryStage has them on the host
+// Boundary particles on the device, as class BoundaryStage on the host
 
 #include "pointers.h"
 #include "sph_dissipation_boundary.h"
@@ -29,31 +29,30 @@ class Pair;
 namespace SPHDissipation {
   class BoundaryStage;
 
-  // The boundary particles, owned ones first, and what belongs to them by their number in this list
+  // The boundary particles, owned ones first, and their values, by the number in this list unless noted
 
   template <class DeviceType> struct BoundaryDataKokkos {
     int nowned, nall;
     Kokkos::View<int *, DeviceType> particles;
-    Kokkos::View<int *, DeviceType> number;    // of each owned and ghost particle; -1: it is fluid
+    Kokkos::View<int *, DeviceType> number;    // of each owned and ghost particle; -1: no boundary
     Kokkos::View<Surface *, DeviceType> surface;
-    Kokkos::View<BoundarySum *, DeviceType> sum;             // of owned ones
-    Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // the same; empty if nothing conducts
+    Kokkos::View<BoundarySum *, DeviceType> sum;             // of owned particles
+    Kokkos::View<BoundaryHeatSum *, DeviceType> heat_sum;    // of owned; empty if nothing conducts
     Kokkos::View<NearKernel *, DeviceType> near;
     Kokkos::View<Excess *, DeviceType> excess;    // of each owned and ghost particle
 
-    // with density continuity: for BoundarySum::occupied; that sum, of each owned and ghost particle
+    // with density continuity: contact kernels; filled part of the contact support of each owned and ghost particle
 
     Kokkos::View<NearKernel *, DeviceType> contact;
     Kokkos::View<double *, DeviceType> occupied;
 
-    // particles of the fluid that may have boundary particles in their support until the list is
-    // built anew
+    // fluid particles that may have boundary particles in their support until the next neighbor list
 
     Kokkos::View<int *, DeviceType> rows;
     int nrows;
 
-    // Loops in which each particle sums up its own pairs of fluid and boundary: first the particles in rows, then the owned
-    // boundary particles
+    // Entries of loops in which each particle sums up its own pairs of fluid and boundary: first the particles in rows, then
+    // the owned boundary particles
 
     int size() const { return nrows + nowned; }
     KOKKOS_INLINE_FUNCTION bool is_wall(int k) const { return k >= nrows; }
@@ -63,7 +62,7 @@ namespace SPHDissipation {
     }
   };
 
-  // The repulsion of the surfaces, as BoundaryStage::repel(): after pass 2, when ghosts have the sums of their owners
+  // Repulsion of the surfaces, as BoundaryStage::repel(): after pass 2, when ghosts have `occupied` of their owners
 
   template <class DeviceType> struct RepulsionKokkos {
     LoopDataKokkos<DeviceType> data;
@@ -93,7 +92,7 @@ namespace SPHDissipation {
       return i;
     }
 
-    // force of a pair over its distance
+    // Return the force of a pair over its distance
 
     KOKKOS_INLINE_FUNCTION double push(int fluid, int wall, double rsq) const
     {
@@ -105,7 +104,7 @@ namespace SPHDissipation {
     }
   };
 
-  // The heat of surfaces, see BoundaryStageKokkos::add_surface_heat()
+  // Heat of surfaces, see BoundaryStageKokkos::add_surface_heat()
 
   template <class DeviceType, class K> struct SurfaceHeatKokkos {
     LoopDataKokkos<DeviceType> data;
@@ -119,7 +118,7 @@ namespace SPHDissipation {
       const int i = boundary.particle(k);
       if (is_wall && heat[i].flux == 0.0) return;
       const double to_wall = is_wall ? 1.0 : -1.0;
-      double total = 0.0;    // that the fluid gets
+      double total = 0.0;    // heat per time of the fluid
       for_neighbors(data, i, [&](int j, const double *from_j, double rsq) {
         if ((boundary.number(j) >= 0) == is_wall) return;
         const int f = is_wall ? j : i, w = is_wall ? i : j;
@@ -134,7 +133,7 @@ namespace SPHDissipation {
     }
   };
 
-  // As class Boundary, whose functions these are on the device
+  // Interface of a fix with boundary particles on the device: functions of class Boundary
 
   template <class DeviceType> class BoundaryKokkos {
    public:
@@ -153,24 +152,23 @@ namespace SPHDissipation {
     {
     }
 
-    // after the pressures, before pass 2: sets the values of owned boundary particles for it, which
-    // the pair style sends to ghosts
+    // After the pressures, before pass 2: set the values of owned boundary particles, which the pair style sends to ghosts
     void run(LoopDataKokkos<DeviceType> &, int inum);
 
-    // after run(), when ghosts have the values of their owners: what pass 2 needs for the heat
+    // After run(), when ghosts have the values of their owners: set the excess, for the heat in pass 2
     void set_excess(LoopDataKokkos<DeviceType> &);
 
-    // after the conduction: heat of surfaces, as BoundaryStage::add_surface_heat(); flow is set of boundary particles,
-    // the heat per time that they get, and heating of LAMMPS of the fluid
+    // After the conduction: add the heat of surfaces to the heating, as BoundaryStage::add_surface_heat(); set flow of
+    // boundary particles to the heat per time that they get
 
     void add_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 
-    // the particles that the last run() was about
+    // Return the boundary particles of the last run()
     const BoundaryDataKokkos<DeviceType> &particles() const { return boundary; }
 
     double memory_usage() const;
 
-    // public because CUDA asks for it of functions with lambdas
+    // public, because CUDA requires this of functions with lambdas
 
     void find_particles(const LoopDataKokkos<DeviceType> &);
     void find_rows(const LoopDataKokkos<DeviceType> &, int inum);
@@ -185,8 +183,8 @@ namespace SPHDissipation {
     BoundaryStage &stage;
     BoundaryDataKokkos<DeviceType> boundary = {};
     std::vector<BoundaryKokkos<DeviceType> *> boundaries;
-    int bits = 0;                // of the groups that the lists are for
-    bigint surface_step = -1;    // that the normals of the surface are for
+    int bits = 0;                // of the groups of the boundary particles in the lists
+    bigint surface_step = -1;    // step of the normals of the surface
   };
 
 }    // namespace SPHDissipation

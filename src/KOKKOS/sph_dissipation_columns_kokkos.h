@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_COLUMNS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_COLUMNS_KOKKOS_H
 
-// Numbers of particles that go to other particles or processors, in and out of the buffers of LAMMPS:
-// the package's own fields, which the pack and unpack functions of AtomVecKokkos do not know.
+// Copies the package's own fields to other particles, and in and out of the buffers of LAMMPS: the pack and unpack functions
+// of AtomVecKokkos do not have these fields.
 
 #include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_exchange.h"
@@ -24,7 +24,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // number c of particle i is at base[c][i * stride[c]]
+  // Columns of numbers: number c of particle i is base[c][i * stride[c]]
 
   struct ColumnsKokkos {
     // own fields that migrate: rho, esph, vest, desph_before, rho_sum, vol_rate, vol_rate_before, vol_heat, vol_support,
@@ -71,15 +71,15 @@ namespace SPHDissipation {
     }
   };
 
-  // the columns in rows of a buffer
+  // Rows of a buffer with the columns
 
   struct RowsKokkos {
-    double *first;    // where the columns begin in the first row
-    int width;        // of a row
+    double *first;    // begin of the columns in the first row
+    int width;        // numbers in a row
     KOKKOS_INLINE_FUNCTION double *row(int k) const { return first + (bigint) k * width; }
   };
 
-  // the functions below run on DeviceType, on which all pointers must be
+  // The functions below run on DeviceType, in whose memory all pointers must be.  Pack the particles list(k), k < n
 
   template <class DeviceType, class List>
   void pack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, const List &list)
@@ -88,7 +88,7 @@ namespace SPHDissipation {
         "sph:pack", n, KOKKOS_LAMBDA(int k) { columns.pack(list(k), buf.row(k)); });
   }
 
-  // to particle place(k), unless that is negative
+  // Unpack row k to particle place(k), unless place(k) is negative
 
   template <class DeviceType, class List>
   void unpack_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n, const List &place)
@@ -99,14 +99,14 @@ namespace SPHDissipation {
         });
   }
 
-  // the places of those that follow the first one
+  // List of the particles first, first + 1, ...
 
   struct ParticlesFrom {
     int first;
     KOKKOS_INLINE_FUNCTION int operator()(int k) const { return first + k; }
   };
 
-  // from the particles of a list to those from nfirst on
+  // Copy the columns of the particles of a list to the particles from nfirst on
 
   template <class DeviceType, class List>
   void copy_columns(const ColumnsKokkos &columns, int n, const List &list, int nfirst)
@@ -115,7 +115,7 @@ namespace SPHDissipation {
         "sph:copy", n, KOKKOS_LAMBDA(int k) { columns.copy(list(k), nfirst + k); });
   }
 
-  // the same for all swaps of a single processor at once, see CommKokkos::forward_comm()
+  // Do the same for all swaps of a single processor at once, see CommKokkos::forward_comm()
 
   template <class DeviceType, class Lists, class Ints>
   void copy_columns_of_swaps(const ColumnsKokkos &columns, int n, const Lists &lists,
@@ -134,7 +134,7 @@ namespace SPHDissipation {
         });
   }
 
-  // particles that leave; then others fill their places
+  // Pack particles that leave, and move others to their places
 
   template <class DeviceType, class List>
   void pack_leaving_columns(const ColumnsKokkos &columns, const RowsKokkos &buf, int n,

@@ -14,8 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_FIELDS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_FIELDS_KOKKOS_H
 
-// A per-atom array on host and device, as the functions of an atom style see it, which do the same to
-// all of them.
+// A per-atom array on host and device, with the functions that an atom style calls for all arrays.
 
 #include "atom_vec_kokkos.h"
 #include "memory_kokkos.h"
@@ -28,8 +27,8 @@ namespace SPHDissipation {
    public:
     typedef Kokkos::BinSort<AtomVecKokkos::KeyViewType, AtomVecKokkos::BinOp> Sorter;
 
-    const uint64_t mask;    // its bit in those of sync() and modified()
-    const bool own;         // of the package, not of class AtomKokkos
+    const uint64_t mask;    // bit in the masks of sync() and modified()
+    const bool own;         // belongs to the package, not to class AtomKokkos
 
     FieldKokkos(uint64_t mask, bool own) : mask(mask), own(own) {}
     virtual ~FieldKokkos() = default;
@@ -42,8 +41,7 @@ namespace SPHDissipation {
     virtual void add_to(ColumnsKokkos &, ExecutionSpace) const = 0;
   };
 
-  // View: a dual view, or one that LAMMPS also transforms between the layouts of host and device;
-  // Pointer: what the CPU styles know it by
+  // View: a dual view, or one that LAMMPS also transforms between the layouts of host and device; Pointer: of the CPU styles
 
   template <class View, class Pointer> class FieldOfKokkos : public FieldKokkos {
    public:

@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_LOOPS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_LOOPS_KOKKOS_H
 
-// The two pair loops on the device, over full neighbor lists: each particle sums up its own pairs, so
-// that nothing is added to another one, and the sums do not depend on the number of threads.
+// The two pair loops on the device, over full neighbor lists: each particle sums up its own pairs and adds nothing to other
+// particles, so that sums do not depend on the number of threads.
 
 #include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_parameters.h"
@@ -25,7 +25,7 @@
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-  // what the formulas of a pair need, see sph_dissipation_simd.h
+  // Functions for the formulas of a pair, see sph_dissipation_simd.h
 
   typedef double Vec;
   SPH_INLINE double square_root(double a)
@@ -62,12 +62,12 @@ namespace SPHDissipation {
     const PairCoeff *coeff;    // coeff[type[i] * par.ntypes_1 + type[j * typed]]
     int typed;                 // 0: the coefficients of all pairs are the same
 
-    int not_fluid;                          // groups whose particles have no drag
+    int not_fluid;                          // bits of the groups whose particles have no drag
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
-    Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // if it is asked for
+    Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // empty: not requested
   };
 
-  // function(j, r = r_i - r_j, r^2) for each neighbor of particle i inside the support
+  // Call function(j, r = r_i - r_j, r^2) for each neighbor of particle i inside the support
 
   template <class DeviceType, class Function>
   KOKKOS_FORCEINLINE_FUNCTION void for_neighbors(const LoopDataKokkos<DeviceType> &data, int i,
@@ -84,7 +84,8 @@ namespace SPHDissipation {
     }
   }
 
-  // A loop with a row(k, virial), which adds the virial of a particle and returns its number, without and with it
+  // Runs a loop with or without virial; loop.row(k, virial) adds the virial of a particle and returns the number of the
+  // particle
 
   template <class Loop> struct VirialLoopKokkos {
     Loop loop;
@@ -100,7 +101,7 @@ namespace SPHDissipation {
     }
   };
 
-  // half of a pair; a and b are r and the force on i, whose order decides the round-off alone
+  // Add half of the virial of a pair; a and b are r and the force on i, in any order but for round-off
 
   SPH_INLINE void add_virial(const double *a, const double *b, double *virial)
   {
@@ -110,7 +111,7 @@ namespace SPHDissipation {
     virial[5] += 0.5 * a[1] * b[2];
   }
 
-  // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij
+  // Pass 1: sum c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij
 
   template <class DeviceType, class K> struct DensityLoopKokkos {
     LoopDataKokkos<DeviceType> data;
@@ -134,7 +135,7 @@ namespace SPHDissipation {
     }
   };
 
-  // pass 2, as force_loop() of the CPU styles
+  // Pass 2, as force_loop() of the CPU styles
 
   template <class DeviceType, class K, class Form, bool VOLUME> struct ForceLoopKokkos {
     LoopDataKokkos<DeviceType> data;
@@ -209,7 +210,7 @@ namespace SPHDissipation {
       return i;
     }
 
-    // all heat of a pair with a boundary to the fluid
+    // Give the fluid all heat of a pair with a boundary
 
     KOKKOS_INLINE_FUNCTION void give_boundary_heat(PairState &pair, const Excess &own,
                                                    const Excess &other) const

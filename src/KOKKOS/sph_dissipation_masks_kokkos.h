@@ -16,8 +16,8 @@
 
 #include "atom_masks.h"
 
-// Bits of the package's own fields for sync() and modified() of class AtomKokkos, which hands them on
-// to the atom style: from the other end than those of LAMMPS's atom_masks.h.
+// Bits of the package's own fields for sync() and modified() of class AtomKokkos, which passes them to the atom style: from
+// the highest bit down, while LAMMPS's atom_masks.h begins with the lowest.
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
@@ -31,11 +31,11 @@ namespace SPHDissipation {
   constexpr uint64_t VEST_MASK = uint64_t(1) << 57;
   constexpr uint64_t INERTIA_MASK = uint64_t(1) << 56;
   constexpr uint64_t OMEGAEST_MASK = uint64_t(1) << 55;
-  constexpr uint64_t STATES_MASK = uint64_t(1) << 54;    // all of them
+  constexpr uint64_t STATES_MASK = uint64_t(1) << 54;    // all states
   constexpr uint64_t OFFSET_MASK = uint64_t(1) << 53;    // rho_sum, vol_rate, ...
   constexpr uint64_t TRACE_MASK = uint64_t(1) << 52;
 
-  // what density continuity reads and modifies besides
+  // Fields that density continuity reads and modifies besides
 
   constexpr uint64_t CONTINUITY_MASK = SPH_RHO_MASK | OFFSET_MASK;
 

@@ -31,8 +31,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// names known to compute property/atom, in the order of their index, those of spins last; LAMMPS has a property
-// temperature itself
+// Names for compute property/atom, in the order of their index, those of spins last; "temperature" is a name of LAMMPS
 
 static constexpr const char *PROPERTY[] = {
     "numden", "dnumden", "vol",       "rho",        "esph",     "desph",
@@ -74,13 +73,9 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   add_array("shear_rate", &shear_rate);
   add_array("trace", &trace, NTRACE);
 
-  // strings with peratom variables to include in each AtomVec method
-  // strings cannot contain fields in corresponding AtomVec default strings
-  // order of fields in a string does not matter
-  // except: fields_data_atom & fields_data_vel must match data file
-  // rho, drho, vfrac are computed anew in every step, for owned and ghost atoms, by the
-  // pair style, with density continuity from rho and rho_sum of the last one; vest and
-  // desph_before of restart files are those of the last step
+  // Fields of each AtomVec method, but for its default fields; the order matters in fields_data_atom and fields_data_vel
+  // alone, which must match data files.  In every step, the pair style computes rho, drho, vfrac of owned and ghost atoms,
+  // with density continuity from rho and rho_sum of the last step; restart files have vest and desph_before of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
   const std::vector<std::string> kept = {
@@ -111,8 +106,8 @@ void AtomVecSPHBulk::process_args(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   room for states; a column with the density.  Data files have them before the position: lines of velocities have no
-   room, because the buffer of WriteData::velocities() has a limited width
+   Make room for states, and a column for the density.  Data files have them before the position: lines of velocities have no
+   room, because the buffer of WriteData::velocities() has a limited width.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_columns(int narg, char **arg)
@@ -158,7 +153,7 @@ void AtomVecSPHBulk::add_columns(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   in data files, a state that has no column of its own stands in the last one of another channel
+   Put a state without its own column in data files into the last column of another channel (used), or clear that column.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
@@ -170,7 +165,7 @@ void AtomVecSPHBulk::share_columns(int ilocal, bool used) const
 }
 
 /* ----------------------------------------------------------------------
-   where LAMMPS writes a data file, with or without coefficients; style hybrid calls pack_data_pre() alone
+   Warn of densities that a data file does not have; style hybrid calls pack_data_pre() alone.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::pack_data(double **buf)
@@ -197,7 +192,8 @@ void AtomVecSPHBulk::pack_data_pre(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   read_data drops what a line has beyond its buffer.  The fields are those of style hybrid, if there is one
+   Stop if the line of an atom exceeds the buffer of read_data, which would drop the rest.  With style hybrid, the fields are
+   those of hybrid.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::check_data_line(int ilocal) const
@@ -259,7 +255,7 @@ void AtomVecSPHBulk::add_spins()
 }
 
 /* ----------------------------------------------------------------------
-   not through atom: when replicate deletes the old atom style, this points to the new one
+   Remove the arrays through owner, not through atom: when replicate deletes the old atom style, atom is the new one.
 ------------------------------------------------------------------------- */
 
 AtomVecSPHBulk::~AtomVecSPHBulk()
@@ -271,16 +267,16 @@ AtomVecSPHBulk::~AtomVecSPHBulk()
                                   return field.name == own.name;
                                 }),
                  fields.end());
-    if (in_views && !own.cols) owner->dvector[own.index] = nullptr;    // not its memory
+    if (in_views && !own.cols) owner->dvector[own.index] = nullptr;    // memory of the views
     owner->remove_custom(own.index, CUSTOM_DOUBLE, own.cols);
   }
 }
 
 /* ----------------------------------------------------------------------
-   declare an array that class Atom has no member for, with one value per atom or with columns
-   class Atom owns it as a custom property, so that the library and other commands know it
-   it is no field of fields_grow: style hybrid deletes its sub-styles before it frees those
-   a vector not by class AtomKokkos, which would sync the atom style that is only being made
+   Add an array that class Atom has no member for, with one value per atom or with columns.  Class Atom owns the array as a
+   custom property, which the library and other commands can read.  The array is not in fields_grow: style hybrid deletes its
+   sub-styles before it frees such arrays.  Do not call add_custom() of class AtomKokkos for a vector: it would sync the atom
+   style during its construction.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double ***array, int cols)
@@ -295,8 +291,8 @@ void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double 
 }
 
 /* ----------------------------------------------------------------------
-   set local copies of all grow ptrs used by this class, except defaults
-   needed in replicate when 2 atom classes exist and it calls pack_restart()
+   Set the pointers of this class to the arrays, after they have grown; grow the own arrays.  Command replicate needs the
+   pointers when it calls pack_restart(), while two atom styles exist.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::grow_pointers()
@@ -333,8 +329,7 @@ void AtomVecSPHBulk::show_custom_vectors()
 }
 
 /* ----------------------------------------------------------------------
-   clear extra forces starting at atom N
-   nbytes = # of bytes to clear for a per-atom vector
+   Clear the heating from atom n on; nbytes = # of bytes to clear in a per-atom vector.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::force_clear(int n, size_t nbytes)
@@ -343,8 +338,7 @@ void AtomVecSPHBulk::force_clear(int n, size_t nbytes)
 }
 
 /* ----------------------------------------------------------------------
-   modify what AtomVec::data_atom() just unpacked
-   or initialize other atom quantities
+   Check the numbers of an atom from a data file, and set all others.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::data_atom_post(int ilocal)
@@ -371,7 +365,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   zero what AtomVec::unpack_restart() did not unpack, and only a force computation can set
+   Set the numbers to 0 that restart files do not have, since the force computation sets them.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::unpack_restart_init(int ilocal)
@@ -382,8 +376,7 @@ void AtomVecSPHBulk::unpack_restart_init(int ilocal)
 }
 
 /* ----------------------------------------------------------------------
-   assign an index to named atom property and return index
-   return -1 if name is unknown to this atom style
+   Return the index of a named atom property; -1 if this atom style does not have the name.
 ------------------------------------------------------------------------- */
 
 int AtomVecSPHBulk::property_atom(const std::string &name)
@@ -397,8 +390,7 @@ int AtomVecSPHBulk::property_atom(const std::string &name)
 }
 
 /* ----------------------------------------------------------------------
-   pack per-atom data into buf for ComputePropertyAtom
-   index maps to data specific to this atom style
+   Pack an atom property into buf for ComputePropertyAtom; index = from property_atom().
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int groupbit)
@@ -417,7 +409,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
                "yield, smagorinsky, or arrhenius of pair_coeff");
   const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
-  // what is an array, in the order of the names
+  // arrays in the order of the names
 
   const double *const array[VESTX] = {
       nullptr, nullptr,     vfrac,     rho, esph, desph, temperature.data(),
@@ -447,7 +439,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
 }
 
 /* ----------------------------------------------------------------------
-   0 where a negative number says that the state is not known yet; amounts may be negative
+   Return a state for output: 0 if a negative number marks an unknown state; amounts may be negative.
 ------------------------------------------------------------------------- */
 
 double AtomVecSPHBulk::state_value(int slot, int i) const
@@ -457,7 +449,7 @@ double AtomVecSPHBulk::state_value(int slot, int i) const
 }
 
 /* ----------------------------------------------------------------------
-   which the pair style knows, with its heat capacities
+   Return the temperatures of owned particles, from the pair style, which has the heat capacities.
 ------------------------------------------------------------------------- */
 
 std::vector<double> AtomVecSPHBulk::temperatures() const
@@ -475,7 +467,7 @@ std::vector<double> AtomVecSPHBulk::temperatures() const
 }
 
 /* ----------------------------------------------------------------------
-   style hybrid does not ask its sub-styles: there the own arrays are not counted
+   Return bytes.  Style hybrid does not call this function: there the own arrays are not counted.
 ------------------------------------------------------------------------- */
 
 double AtomVecSPHBulk::memory_usage()

@@ -25,11 +25,10 @@ AtomStyle(sph/bulk,AtomVecSPHBulk);
 
 namespace LAMMPS_NS {
 
-// Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph),
-// velocity extrapolated to the end of the step (vest); from the last force computation, density
-// rho = m c, its rate drho = m dc/dt, volume vfrac = V = 1/c.  Where particles spin, also spin (omega,
-// angular velocity) and torque.  Class Fields has the others.  Arguments: keywords that make room for states, see StateList;
-// rho, data files have the density.
+// Per-atom arrays of a particle fluid: mass (rmass), internal energy (esph) and its rate (desph), velocity extrapolated to
+// the end of the step (vest); from the last force computation, density rho = m c, its rate drho = m dc/dt, volume vfrac = V
+// = 1/c.  With spins, also spin (omega, angular velocity) and torque.  Class Fields has the others.  Arguments: keywords
+// that make room for states, see StateList; rho: data files have the density.
 
 class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  public:
@@ -51,7 +50,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
  protected:
   AtomVecSPHBulk(class LAMMPS *, bool spins, bool in_views = false);
 
-  // arrays that class Atom has no member for: name as a field, pointer to be kept up to date
+  // Add an array that class Atom has no member for: name of the field, pointer that this class keeps up to date
 
   void add_array(const std::string &name, double **vector) { add_array(name, vector, nullptr, 0); }
   void add_array(const std::string &name, double ***array, int cols)
@@ -60,9 +59,9 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
   }
 
   class Atom *const owner;    // of the arrays
-  const bool in_views;        // all arrays, by a derived class
+  const bool in_views;        // a derived class has all arrays in views
   void add_columns(int narg, char **arg);
-  void show_custom_vectors();    // as custom properties, where they are now
+  void show_custom_vectors();    // sets the pointers of the custom properties
 
  private:
   void add_spins();
@@ -76,7 +75,7 @@ class AtomVecSPHBulk : virtual public AtomVec, public SPHDissipation::Fields {
     std::string name;
     int index;          // of the custom property
     int cols;           // 0: vector
-    double **vector;    // the pointers to be kept up to date
+    double **vector;    // pointer that this class keeps up to date, or array
     double ***array;
   };
   std::vector<OwnArray> own_arrays;

@@ -60,8 +60,8 @@ void ComputeSPHDissipation::init()
 }
 
 /* ----------------------------------------------------------------------
-   Get the heat of each particle (not if nullptr) and the total power by channel; the fluid is looked up at every use,
-   for the pair style may have been replaced since
+   Get the heat of each particle (not if nullptr) and the total power by channel.  Look the fluid up at every use, because
+   another pair style may have replaced the last one.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHDissipation::collect(double *heat_of_each, double *power)

@@ -26,8 +26,7 @@ ComputeStyle(sph/dissipation,ComputeSPHDissipation);
 
 namespace LAMMPS_NS {
 
-// Power that the dissipative forces of the last force computation turn into heat: total, by
-// channel, and by particle.
+// Power that the dissipative forces of the last force computation turn into heat: total, by channel, and by particle.
 
 class ComputeSPHDissipation : public Compute {
  public:

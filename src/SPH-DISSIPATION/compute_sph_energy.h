@@ -24,7 +24,7 @@ ComputeStyle(sph/energy,ComputeSPHEnergy);
 
 namespace LAMMPS_NS {
 
-// Kinetic, internal and rotational energy, that of pairs, and their sum for a particle fluid.
+// Kinetic, internal and rotational energy of a particle fluid, the energy of pairs of unlike types, and the sum of all.
 
 class ComputeSPHEnergy : public Compute {
  public:

@@ -39,7 +39,7 @@ class ComputeSPHGrid : public SPHDissipation::GridCompute {
   double memory_usage() override;
 
  private:
-  // one of them, by the dimension and whether there is one value per point or more
+  // one of these is in use, by the dimension and by one or more values per point
 
   double **vector2d = nullptr, ***vector3d = nullptr;
   double ***array2d = nullptr, ****array3d = nullptr;

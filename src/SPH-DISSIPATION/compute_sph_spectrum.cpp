@@ -38,21 +38,21 @@ using namespace SPHDissipation;
 
 // Spectra of a periodic flow.
 //
-// A velocity field u = sum_k u_k exp(i k.x) is the sum of a solenoidal part, u_k at right angles to k,
-// and a dilatational one, u_k along k (Helmholtz); a uniform flow, k = 0, counts as solenoidal.  The
-// mean of the product of two real fields is the sum of a_k b_k^* over all modes (Parseval).  Notation:
-// P. Sagaut, C. Cambon, Homogeneous Turbulence Dynamics (Springer, 2018).
+// A velocity field u = sum_k u_k exp(i k.x) is the sum of a solenoidal part, u_k at right angles to k, and a dilatational
+// part, u_k along k (Helmholtz); a uniform flow, k = 0, counts as solenoidal.  The mean of the product of two real fields is
+// the sum of a_k b_k^* over all modes (Parseval).  Notation: P. Sagaut, C. Cambon, Homogeneous Turbulence Dynamics
+// (Springer, 2018).
 
 using Amplitude = std::complex<double>;
 
-// wave number of mode i of n points along a length: -n/2 to (n-1)/2 wave lengths in it
+// Return the wave number of mode i of n points along a length, which has -n/2 to (n-1)/2 wave lengths
 
 static double wave_number(int i, int n, double length)
 {
   return 2.0 * KERNEL_PI / length * (i <= (n - 1) / 2 ? i : i - n);
 }
 
-// one mode of a velocity field: energies |u|^2/2 of both parts, squares of curl and divergence
+// One mode of a velocity field: energies |u|^2/2 of both parts, squares of curl and divergence
 
 struct ModeEnergies {
   double solenoidal, dilatational, curl2, div2;
@@ -69,17 +69,17 @@ static ModeEnergies split(const double *k, const Amplitude *u)
   return {0.5 * curl2 / ksq, 0.5 * div2 / ksq, curl2, div2};
 }
 
-// Power per volume that a Newtonian fluid of uniform viscosities dissipates in a periodic box:
-// mu <curl^2> + (kappa + 2 mu (1 - 1/n)) <div^2>, exact, as the cross terms of the strain rates are
-// divergences.  Coefficient of <div^2>, also called lambda + 2 mu.
+// Return the coefficient of <div^2>, also called lambda + 2 mu, in the power per volume that a Newtonian fluid of uniform
+// viscosities dissipates in a periodic box, mu <curl^2> + (kappa + 2 mu (1 - 1/n)) <div^2>.  The power is exact, since the
+// cross terms of the strain rates are divergences.
 
 static double longitudinal_viscosity(double mu, double kappa, int n)
 {
   return kappa + 2.0 * mu * (1.0 - 1.0 / n);
 }
 
-// Factor by which the squared amplitude of a mode is to be multiplied to undo the smoothing by the
-// kernel, 1/W_k^2; where less than half of the amplitude is left, it is not raised any more.
+// Return the factor of the squared amplitude of a mode that undoes the smoothing by the kernel, 1/W_k^2; at most 4, where
+// less than half of the amplitude is left.
 
 static double deconvolution(Kernel kernel, int n, double k, double support)
 {
@@ -87,7 +87,7 @@ static double deconvolution(Kernel kernel, int n, double k, double support)
   return 1.0 / (transform > 0.5 ? transform * transform : 0.25);
 }
 
-// columns of the array, elements of the vector
+// Columns of the array; elements of the vector
 
 enum { WAVE, MODES, SOLENOIDAL, DILATATIONAL, ENSTROPHY, DENSITY, KINETIC, SPIN, NCOLUMN };
 enum {
@@ -103,7 +103,7 @@ enum {
   NTOTAL
 };
 
-// fields of the modes: velocity, density, velocity times the root of the density, spin
+// Fields of the modes: velocity, density, velocity times the root of the density, spin
 
 enum { U = 0, RHO = 3, ROOT = 4, OMEGA = 7, NFIELD = 10 };
 
@@ -252,7 +252,7 @@ void ComputeSPHSpectrum::transform_fields()
 }
 
 /* ----------------------------------------------------------------------
-   function(k, k^2) for the wave vectors of the modes of this processor, in their order
+   Call function(k, k^2) for the wave vectors of the modes of this processor, in their order.
 ------------------------------------------------------------------------- */
 
 template <class Function> void ComputeSPHSpectrum::for_modes(Function &&function) const

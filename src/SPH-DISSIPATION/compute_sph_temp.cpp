@@ -33,7 +33,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-enum { SPIN = 3, INTERNAL, NVALUE };    // after those of the three directions
+enum { SPIN = 3, INTERNAL, NVALUE };    // after the three directions
 
 /* ---------------------------------------------------------------------- */
 
@@ -63,8 +63,8 @@ void ComputeSPHTemp::init()
 }
 
 /* ----------------------------------------------------------------------
-   Set the temperature of each direction, relative to the mean velocity of the group: so there are N-1 degrees of
-   freedom, whether the momentum of the group is constant or not
+   Set the temperature of each direction, relative to the mean velocity of the group: N-1 degrees of freedom, whether the
+   momentum of the group is constant or not.
 ------------------------------------------------------------------------- */
 
 void ComputeSPHTemp::translational(double *temperature) const

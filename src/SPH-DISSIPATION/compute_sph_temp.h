@@ -24,7 +24,7 @@ ComputeStyle(sph/temp,ComputeSPHTemp);
 
 namespace LAMMPS_NS {
 
-// temperatures of translation, in all directions together and one by one, and of the spins
+// Temperatures of the translation, in all directions and in each of them, of the spins, and of the heat of the particles
 
 class ComputeSPHTemp : public Compute {
  public:

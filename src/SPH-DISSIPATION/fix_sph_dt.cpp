@@ -38,11 +38,11 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-// largest factor between a time step and the next one: forces are those of the time step before
+// Largest factor between a time step and the next one: the forces depend on the time step before
 
 static constexpr double GROWTH = 1.25;
 
-// Return a part of a time, which may be unlimited.
+// Return a part of a time; UNLIMITED_STEP if the time is unlimited.
 
 static double part_of(double part, double time)
 {
@@ -72,7 +72,7 @@ FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
   if (smallest > largest)
     error->all(FLERR, "Fix {} min {:g} is larger than max {:g}", style, smallest, largest);
 
-  time_depend = 1;    // the elapsed time is not the number of steps times one of them
+  time_depend = 1;    // the elapsed time is not the number of steps times the time step
   scalar_flag = vector_flag = 1;
   size_vector = NLIMIT;
   extscalar = extvector = 0;
@@ -98,8 +98,8 @@ void FixSPHDt::init()
 }
 
 /* ----------------------------------------------------------------------
-   before the first forces, which may be those of half a step; they are not known yet.  Integrators that are
-   set up later are to have set masses and inertia
+   Set the time step before the first forces, which may act for half a step; the limit of forces is not known yet.  First let
+   integrators set masses and inertia, which they would do later in their setup().
 ------------------------------------------------------------------------- */
 
 void FixSPHDt::setup_pre_force(int /*vflag*/)
@@ -116,8 +116,8 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   with a stage of their own for the viscous terms, the forces are the mean of half a step as it was
-   then, which must not act in a longer one
+   Set the time step after the first forces.  With viscous rkl2 or implicit, these forces are the mean of half the old step,
+   and must not act in a longer step.
 ------------------------------------------------------------------------- */
 
 void FixSPHDt::setup(int /*vflag*/)
@@ -140,8 +140,8 @@ void FixSPHDt::end_of_step()
 }
 
 /* ----------------------------------------------------------------------
-   a stage of its own for the viscous terms allows any time step; the limit is then one of accuracy, if
-   it is asked for.  Without any limit the time step stays
+   Return the time step that the limits allow; the present one without any limit.  viscous rkl2 or implicit allows any time
+   step: then the limit of viscosity, one of accuracy, acts only if the keyword is given.
 ------------------------------------------------------------------------- */
 
 double FixSPHDt::allowed_step(const CoeffTable &table)

@@ -45,10 +45,10 @@ class FixSPHDt : public Fix {
   enum { ACOUSTIC, VISCOUS, FORCE, NLIMIT };
   SPHDissipation::Fluid *fluid = nullptr;
   double part[NLIMIT];               // factors of the limits
-  bool given[NLIMIT] = {};           // by the keyword
-  double smallest = 0.0, largest;    // time steps
-  double limits[NLIMIT] = {};        // time steps; the last ones
-  bool set_up = false;               // since it was defined
+  bool given[NLIMIT] = {};           // factors from keywords
+  double smallest = 0.0, largest;    // bounds of the time step
+  double limits[NLIMIT] = {};        // the last limits of the time step
+  bool set_up = false;               // setup() has run since the fix was defined
 
   double allowed_step(const SPHDissipation::CoeffTable &);
   void reset_step(double);

@@ -49,8 +49,8 @@ static constexpr double NODES =
     3.0;    // nodes of the plane per radius in which the fluid is measured
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
-// in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.
-// Files without a format begin with the size.
+// Numbers in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.  Files
+// without a format begin with the size.
 
 static constexpr int FORMAT = 1004;
 enum {
@@ -62,7 +62,7 @@ enum {
   NHEAD = PLANE + 6
 };
 
-// the vector of the fix, after the balance
+// Places in the vector of the fix, behind the balance
 
 enum { COUNT = OpenBalance::NVALUE, PRESSURE, VELOCITY, NVECTOR = VELOCITY + 3 };
 
@@ -186,7 +186,7 @@ void FixSPHOpen::init()
   lattice->init(support, fluidbit);
   if (lattice->are_new()) warn_of_styles();
 
-  // a small radius, because it smooths the profile, but large enough for a few particles
+  // choose a small radius, because averages smooth the profile, but large enough for a few particles
 
   constexpr double PART = 0.6, WIDTHS = 2.2;
   radius = std::min(support, std::max(PART * support, WIDTHS * lattice->width()));
@@ -198,9 +198,8 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   Set the times of averages and of the memory of waves: heat and fix adapt change the speed of sound, whose
-   mean and, with new neighbor lists, least value near the plane they follow.  crossings = what
-   measure_sound() has found, summed over all processors.
+   Set the times of averages and of the memory of waves, from the mean and, with new neighbor lists, the least speed of sound
+   near the plane, which heat and fix adapt change.  crossings = sums of measure_sound() over all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_times(const double *crossings)
@@ -214,8 +213,7 @@ void FixSPHOpen::set_times(const double *crossings)
 }
 
 /* ----------------------------------------------------------------------
-   Append number and sum of the times in which sound crosses a support radius, of particles of zone and fluid near
-   the plane.
+   Append number and sum of the times in which sound crosses a support radius, of particles of zone and fluid near the plane.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::measure_sound(std::vector<double> &mine)
@@ -235,8 +233,8 @@ void FixSPHOpen::measure_sound(std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether a particle at x may have pairs of zone and fluid: near the plane, and, in a zone with a
-   region, which may have fluid at its sides, all along.
+   Return whether a particle at x may have pairs of zone and fluid: near the plane, or, in a zone with a region, which may
+   have fluid at its sides, anywhere.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::zone_near(const double *x, double reach) const
@@ -288,8 +286,8 @@ void FixSPHOpen::keep_states()
 }
 
 /* ----------------------------------------------------------------------
-   Find the particles of the zone and the fluid near it before each neighbor list, and so before all forces
-   of a setup: number and order of the particles stay the same from one list to the next, ...
+   Find the particles of the zone and the fluid near the zone before each neighbor list, and so before all forces of a setup:
+   number and order of the particles do not change from one list to the next, unless has_lost_members().
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::find_members()
@@ -302,7 +300,7 @@ void FixSPHOpen::find_members()
 }
 
 /* ----------------------------------------------------------------------
-   ... unless a fix defined before this one, such as sph/refine, has changed them in this step
+   Return true if another fix, such as sph/refine, may have changed number and order of the particles in this step.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::has_lost_members() const
@@ -330,9 +328,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along
-   the plane they move with the given velocity, if there is one: with their own, particles that
-   leave would gather, or enter walls.
+   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along the plane, particles
+   move with the given velocity, if there is one: with their own velocity, particles that leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -395,7 +392,7 @@ void FixSPHOpen::compress(int i)
         return one.first < other;
       });
   if (found == states.end() || found->first != i) return;
-  if (fluid->model->choice.continuity) return;    // it keeps its density
+  if (fluid->model->choice.continuity) return;    // the particle keeps its density
   const double rho = sums[found - states.begin()] + update->dt * atom->drho[i];
   condition->keep(i, condition->at_density(i, found->second, rho));
 }
@@ -429,8 +426,8 @@ void FixSPHOpen::set_velocity(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Set spin and internal energy of a particle of the zone to the given ones, if it moves into the fluid; the energy
-   with the state, if that includes the heat.
+   Set spin and internal energy of a particle of the zone to the given values, if the particle moves into the fluid.
+   set_state() sets the energy if states include the heat.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_spin(int i)
@@ -494,8 +491,8 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
 }
 
 /* ----------------------------------------------------------------------
-   Measure the fluid near the plane, and count its particles that leave faster than sound.  It is in the group of
-   the zone while variables are evaluated, which both need.
+   Measure the fluid near the plane, and count its particles that leave faster than sound.  Both need the variables at these
+   particles, which therefore have the group of the zone during the evaluation.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
@@ -526,9 +523,8 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than
-   sound, from where no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles
-   of all processors.
+   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than sound, from where
+   no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles of all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn(double nsupersonic)
@@ -545,8 +541,8 @@ void FixSPHOpen::warn(double nsupersonic)
 }
 
 /* ----------------------------------------------------------------------
-   Set density and pressure of a particle of the zone.  Its bulk term is its own: where it counts, the
-   particle has a full support.
+   Set density and pressure of a particle of the zone.  The particle keeps its own bulk term: where the term acts on fluid,
+   the particle has a full support.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_state(OpenStage &stage, int i)

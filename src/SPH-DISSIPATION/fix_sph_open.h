@@ -42,9 +42,8 @@ namespace SPHDissipation {
   struct OpenState;
 }    // namespace SPHDissipation
 
-// Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves its particles, gives them
-// the state that is prescribed or that the fluid has, lets them into the fluid and out of it, and sums
-// up what they carry.
+// Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves its particles, sets their state to the
+// prescribed one or that of the fluid, turns particles of the zone into fluid and back, and sums up what they carry.
 // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
 class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
@@ -85,20 +84,20 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::Fields *fields = nullptr;
   std::string fluid_name;    // group of the fluid
   int fluidbit = 0;
-  double radius = 0.0;    // the fluid within it is measured at the plane
+  double radius = 0.0;    // in which the fluid is measured around nodes of the plane
   double area = 0.0;      // cross section of a row; 0: rows have a spacing
   double my_longest = 0.0,
          longest = 0.0;        // time in which sound crosses a support radius near the plane
   std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
   bool is_new = false;         // no forces have been computed with this zone
-  bool supersonic = false, gap = false;    // has been warned of
-  bool set_up = false;                     // since it was defined
+  bool supersonic = false, gap = false;    // true: a warning was given
+  bool set_up = false;                     // setup has run since the fix was defined
   bool totals_known = false;
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
-  // Owned particles of a zone with heat, in ascending order: their states in the last forces, and their sums over
-  // the neighbors; until they move on
+  // Owned particles of a zone with heat, in ascending order, with their states in the last forces; densities by sums over
+  // the neighbors; both valid until particles change sides
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
   std::vector<double> sums;
 

@@ -104,7 +104,7 @@ void FixSPHOpen::check_groups(int fluid_group)
 }
 
 /* ----------------------------------------------------------------------
-   Return the integrator of the group of the fluid: what enters is in no other group that could have one.
+   Return the integrator of the group of the fluid: particles that enter are in no other group with an integrator.
 ------------------------------------------------------------------------- */
 
 FixSPHBulk *FixSPHOpen::find_integrator(int fluid_group)
@@ -193,8 +193,8 @@ void FixSPHOpen::check_region()
 }
 
 /* ----------------------------------------------------------------------
-   Check that the neighbor lists are built anew, and have the pairs of the zone with itself and with the
-   fluid, also after particles have entered, when they have the group of the fluid.
+   Check that LAMMPS builds new neighbor lists, and that they have the pairs of the zone with itself and with the fluid, also
+   of particles that have entered and have the group of the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::check_lists()
@@ -344,9 +344,8 @@ void FixSPHOpen::warn_of_masses()
 }
 
 /* ----------------------------------------------------------------------
-   Warn if the sums of the kernel give the zone, where its particles have a full support, another density
-   than the prescribed one.  At the side of a jet the density of single particles may be lower, hence the
-   largest and the mean.
+   Warn if the sums of the kernel give the zone, where its particles have a full support, another density than the prescribed
+   one.  At the side of a jet the density of single particles may be lower, hence the largest and the mean.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn_of_density()
@@ -374,11 +373,11 @@ void FixSPHOpen::warn_of_density()
 }
 
 /* ----------------------------------------------------------------------
-   Warn of a gap between what enters and the fluid in front of it, wider than two particles, up to two
-   support radii from the plane.  True if there is one.
-   Mark for each node of the plane, one bit each, the parts of the depth in which there is fluid, and the
-   sides of the node on which particles enter.  Nodes with particles on all sides count: at the side of a
-   jet, which may contract, and at a wall there is no fluid.  A gas may have any density.
+   Warn of a gap, wider than two particles, between entering particles and the fluid, up to two support radii from the plane.
+   Return true if there is one; a gas may have any density.
+   Mark, by one bit each, for each node of the plane, the parts of the depth with fluid, and the sides of the node on which
+   particles enter.  Only nodes with particles on all sides count, not those at a wall or at the side of a jet, which may
+   contract.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::warn_of_gap()

@@ -50,13 +50,13 @@ static constexpr double SPLIT = 1.6, MERGE = 0.6;    // defaults: volume over ta
 static constexpr double WIDEST = 1.0 / 1.5;          // target spacing over the support radius
 static constexpr double NEVER = -INFINITY;           // step of the last event
 
-// Each particle keeps the step of its last event; and, if that was a split that its daughters can
-// undo as a whole, the lowest of their new IDs, else 0
+// Numbers of each particle: step of the last event; family = lowest new ID of the daughters of a split that they can undo as
+// a whole, else 0
 
 enum { STEP, FAMILY, NPAST };
 
-// in restart files: -format, balance, highest ID that was ever given.  The format is also that of what
-// is written of each particle.  Files without one begin with the number of splits.
+// Numbers in restart files: -format, balance, highest ID that was ever given.  The numbers of each particle have the same
+// format.  Files without a format begin with the number of splits.
 
 static constexpr int FORMAT = 1003;
 enum { BALANCE = 1, HIGHEST = BALANCE + RefineBalance::NVALUE, NSTATE };
@@ -236,8 +236,7 @@ void FixSPHRefine::evaluate_target()
 }
 
 /* ----------------------------------------------------------------------
-   Return the number of steps from one event of a particle to the next, with the time step and the speed
-   of sound of now.
+   Return the number of steps from one event of a particle to the next, with the present time step and speed of sound.
 ------------------------------------------------------------------------- */
 
 double FixSPHRefine::waiting(const Sound &sound, int i) const
@@ -273,8 +272,8 @@ bool FixSPHRefine::is_fluid(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether the last event of a particle is long enough ago.  After a reset_timestep before this
-   fix existed, it seems to be in the future: such an event does not count.
+   Return whether the last event of a particle is long enough ago.  An event in the future, by a reset_timestep before this
+   fix existed, does not count.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::may_change(const Sound &sound, int i) const
@@ -350,7 +349,7 @@ double FixSPHRefine::list_volume() const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether any particle is to split or to merge, and count those of the fluid.
+   Return whether any particle should split or merge; count the particles of the fluid.
 ------------------------------------------------------------------------- */
 
 bool FixSPHRefine::wanted(bigint &nfluid)

@@ -35,8 +35,8 @@ namespace SPHDissipation {
   class Value;
 }    // namespace SPHDissipation
 
-// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target, merges those
-// that are smaller, and sums up what that changes.
+// Splits particles of the fluids sph/bulk and sph/micropolar that are larger than a target, merges particles that are
+// smaller, and sums up the changes of momentum, energy, and other quantities.
 
 class FixSPHRefine : public Fix {
  public:
@@ -65,7 +65,7 @@ class FixSPHRefine : public Fix {
 
  private:
   bool by_spacing = false;    // the target is a spacing, else a volume
-  std::string target_word;    // as it was given
+  std::string target_word;    // target in the input
   const std::unique_ptr<SPHDissipation::Value> target;
   double largest_volume = 0.0;    // target that leaves enough neighbors
   std::unique_ptr<SPHDissipation::RefineBalance> balance;
@@ -81,7 +81,7 @@ class FixSPHRefine : public Fix {
   bigint event_step = -1;             // step of the last events
   bool postponed = false;             // the last check waits for the next step
   bool totals_known = false;
-  bool set_up = false;    // since it was defined
+  bool set_up = false;    // setup() has run since the fix was defined
   std::vector<double> totals;
 
   void check_setup();

@@ -92,8 +92,8 @@ void FixSPHTorque::setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   Refuse a group without, and warn of particles without, a spin that follows a torque: one that is
-   integrated, with an inertia.  The integrators set the inertia in their setup(), which may come later.
+   Refuse a group without, and warn of particles without, a spin that follows a torque: a spin with an inertia that a fix
+   integrates.  First let the integrators set the inertia, which they would do later in their setup().
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::check_receivers()
@@ -124,8 +124,8 @@ void FixSPHTorque::check_receivers()
 }
 
 /* ----------------------------------------------------------------------
-   Add the torque to the particles.  It acts at the end of the step, hence its power is that with the
-   spins extrapolated there, and the work of a step that of the mean power at both ends.
+   Add the torque to the particles.  The torque acts at the end of the step: the power is that with the spins extrapolated
+   there, and the work of a step that of the mean power at both ends.
 ------------------------------------------------------------------------- */
 
 void FixSPHTorque::post_force(int /*vflag*/)

@@ -53,8 +53,8 @@ class FixSPHTorque : public Fix {
   double work = 0.0;       // since the fix was defined, of this rank
 
   int receiving_groups = 0;    // bits of the groups whose spin is integrated
-  bigint not_receiving = 0;    // # of particles that the last warning was about
-  bool set_up = false;         // since it was defined
+  bigint not_receiving = 0;    // # of particles in the last warning
+  bool set_up = false;         // setup() has run since the fix was defined
 
   void check_receivers();
 };

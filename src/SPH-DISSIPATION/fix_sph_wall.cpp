@@ -52,7 +52,7 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-// in restart files: -format, motion, heat given, bodies
+// numbers in restart files: -format, motion, heat given, number of bodies, bodies
 
 static constexpr int FORMAT = 1002;
 enum { MOTION = 1, HEAT = MOTION + WallMotion::NRESTART, NBODIES, NSTATE };
@@ -77,7 +77,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     heat(WallHeat::ADIABATIC), heat_value(new Value), gravity(new Value[3]),
     by_molecule(atom->molecule_flag)
 {
-  std::string others;    // a keyword that bodies do not have
+  std::string others;    // first keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
     if (key.is("velocity", 3)) motion->set_velocity(key.words());
     if (key.is("rotate", 7)) motion->set_rotation(key.words());
@@ -292,8 +292,8 @@ void FixSPHWall::check_heat() const
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocity before the exchange of atoms, so that ghost atoms get it with their borders;
-   in a minimization nothing moves
+   Set the velocity before the exchange of atoms, so that ghost atoms get it with their borders; in a minimization nothing
+   moves.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::setup_pre_exchange()
@@ -328,8 +328,8 @@ void FixSPHWall::setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   Move the wall by the mean velocity of the step; fix sph/bulk then copies the velocity
-   to the extrapolated one
+   Move the wall by the mean velocity of the step, and set the velocities of its particles; for bodies, begin the step of the
+   internal energies.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::initial_integrate(int /*vflag*/)
@@ -359,7 +359,7 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Bodies have been moved by another fix.
+   Take over the motion of bodies, which another fix has moved.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::post_integrate()
@@ -397,7 +397,7 @@ void FixSPHWall::note_forces()
 }
 
 /* ----------------------------------------------------------------------
-   as fix sph/bulk does for the particles of the fluid
+   With viscous rkl2 or implicit, add the heat that the forces leave out, as fix sph/bulk does for the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::add_rest_of_heat()
@@ -445,7 +445,7 @@ bool FixSPHWall::set_velocity()
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether the normals turn with the motion of the last step.
+   Return whether the normals turn with the motion of the last step.
 ------------------------------------------------------------------------- */
 
 bool FixSPHWall::turns_surface(bool before) const
@@ -505,8 +505,8 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
     from_point(i, now, r);
     now.acceleration_at(r, acceleration);
 
-    // with thermal noise: motion, volume, and friction of the wall itself, for which the friction
-    // matrix is symmetric, and a pressure that does not depend on the fluid, whose force has an energy
+    // with thermal noise: own motion, volume, and friction of the wall, for which the friction matrix is symmetric, and a
+    // pressure that does not depend on the fluid, so that its force has an energy
 
     if (noise) {
       const EosParams &eos = model.coeffs[atom->type[i]].eos;
@@ -538,7 +538,7 @@ void FixSPHWall::post_force(int /*vflag*/)
   std::fill(total, total + 6, 0.0);
   total_summed = false;
   const WallVelocity now = motion->velocity();
-  if (neighbor->ago == 0 && atom->nlocal > 0)    // those of other particles stay zero
+  if (neighbor->ago == 0 && atom->nlocal > 0)    // rows of other particles stay zero
     std::fill_n(array_atom[0], 6 * static_cast<std::size_t>(atom->nlocal), 0.0);
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -557,7 +557,7 @@ void FixSPHWall::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   The heat of a step is that of the mean rate at both ends, as in the internal energies of the fluid
+   Add the heat of a step, by the mean of the rates at both ends, as in the internal energies of the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::book_heat()
@@ -570,7 +570,7 @@ void FixSPHWall::book_heat()
 }
 
 /* ----------------------------------------------------------------------
-   Warn if the wall has taken heat from particles that have none.
+   Warn if a wall with a flux has cooled particles below the temperature 0.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::post_run()
@@ -595,7 +595,7 @@ void FixSPHWall::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   The minimizer moves particles along their forces, but must not move the wall.
+   Set the forces on the wall to 0: the minimizer must not move the wall.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::min_post_force(int vflag)
@@ -606,7 +606,8 @@ void FixSPHWall::min_post_force(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   Return force and torque of the fluid on the wall; heat per time that the wall gives the fluid, and heat.
+   Return a component of force (n = 0 to 2) and torque (3 to 5) on the wall; heat per time (6) and heat (7) given to the
+   fluid.
 ------------------------------------------------------------------------- */
 
 double FixSPHWall::compute_vector(int n)
@@ -628,7 +629,7 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 }
 
 /* ----------------------------------------------------------------------
-   Write the point on the axis, which has moved with the wall, and the heat that the wall has given.
+   Write the motion with the point on the axis, which moves with the wall; the heat that the wall has given; the bodies.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::write_restart(FILE *fp)
@@ -657,7 +658,7 @@ void FixSPHWall::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   Force and couple on each particle: only those of the wall have some to take along.
+   Force and couple on each particle, array_atom: the rows of wall particles migrate, those of others are 0.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::grow_arrays(int nmax)

@@ -39,9 +39,8 @@ namespace SPHDissipation {
   struct WallVelocity;
 }    // namespace SPHDissipation
 
-// Solid wall of particles for the fluids sph/bulk and sph/micropolar: moves them, extrapolates
-// velocity, pressure, spin and temperature of the fluid to them, sums up force and torque on them
-// and the heat that they give.
+// Solid wall of particles for the fluids sph/bulk and sph/micropolar: moves the wall particles, extrapolates velocity,
+// pressure, spin and temperature of the fluid to them, sums up force and torque on them and the heat that they give.
 // S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012).
 
 class FixSPHWall : public Fix, public SPHDissipation::Boundary {
@@ -86,12 +85,12 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
  protected:
   const std::unique_ptr<SPHDissipation::WallMotion>
-      motion;    // the torque is about the point on its axis
+      motion;    // of the wall; the torque is about the point on its axis
   const std::unique_ptr<SPHDissipation::WallCondition> condition;
   bool move = true;
-  std::unique_ptr<SPHDissipation::Bodies> bodies;    // that the fluid moves; nullptr: a wall
+  std::unique_ptr<SPHDissipation::Bodies> bodies;    // which the fluid moves; nullptr: a wall
   bool noise = false;                                // the fluid has thermal noise
-  bool checked = false;    // thickness checked, in the first run; false: not set up since defined
+  bool checked = false;    // setup() has run, and has checked the thickness
 
   double total[6] = {}, total_all[6] = {};    // force and torque, of this rank and of all
   bool total_summed = false;
@@ -107,12 +106,12 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void book_heat();
 
  private:
-  // by this rank's part of the wall to the fluid; rank 0 has what a restart file knows
+  // given to the fluid by this rank's part of the wall; on rank 0 also the heat of a restart file
 
   double heat_rate = 0.0;     // heat per time in the last step
   double heat_given = 0.0;    // heat since the fix was defined
 
-  // bodies that the fluid moves
+  // bodies that the fluid moves: one for each molecule; keyword body is given
 
   bool by_molecule, split_given = false;
   int first_number = 0;    // of the first body in BoundaryStage
@@ -127,10 +126,10 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void note_forces();
   void add_rest_of_heat();
 
-  bool is_wrong(double value) const;    // as the value of keyword heat
+  bool is_wrong(double value) const;    // not admissible for keyword heat
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
-  bool set_velocity();    // returns whether that of an owned particle is another one than before
+  bool set_velocity();    // returns true if the velocity of an owned particle has changed
 
   // in fix_sph_wall_checks.cpp
 

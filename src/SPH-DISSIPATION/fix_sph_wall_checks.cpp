@@ -48,9 +48,8 @@ using namespace SPHDissipation;
 // Checks of a wall of particles, called by all ranks, and the pairs that it has in the neighbor lists.
 
 /* ----------------------------------------------------------------------
-   Take pairs of this wall with itself and with other walls out of the neighbor lists, as neigh_modify
-   exclude group does; but take back what an earlier run has excluded and this one does not.  Those of the
-   input stay.
+   Exclude pairs of this wall with itself and with other walls from the neighbor lists, as neigh_modify exclude group does.
+   Undo exclusions of an earlier run, but not those of the input.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::exclude_walls()
@@ -66,10 +65,9 @@ void FixSPHWall::exclude_walls()
 }
 
 /* ----------------------------------------------------------------------
-   Take back what exclude_walls() has done.  The group bits of the lists in use do not change until
-   Neighbor::init() sets them anew.  (Neighbor::exclusion_group_group_delete() would write past their end
-   if groups have been excluded since then.)  The command clear, and the end of LAMMPS, delete the neighbor
-   lists before the fixes.
+   Undo exclude_walls().  The group bits of the lists in use do not change until Neighbor::init() sets them again.
+   (Neighbor::exclusion_group_group_delete() would write past their end if groups have been excluded since then.)  The
+   command clear, and the end of LAMMPS, delete the neighbor lists before the fixes.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::include_walls()
@@ -96,7 +94,7 @@ int FixSPHWall::find_excluded(int first, int second) const
 }
 
 /* ----------------------------------------------------------------------
-   Check that the wall has particles, which no other fix moves.
+   Check that the wall has particles, and that no other fix moves them.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_particles() const
@@ -130,7 +128,7 @@ void FixSPHWall::read_bodies(const std::string &others)
 }
 
 /* ----------------------------------------------------------------------
-   Check what else bodies cannot be used with.
+   Refuse settings of the fluid, fixes, and commands that cannot be used with bodies.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_bodies(const Fluid *fluid) const
@@ -158,8 +156,8 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
 }
 
 /* ----------------------------------------------------------------------
-   Check that one fix for rigid bodies, and no other fix, moves the particles of the bodies.  Return whether it moves them with the
-   angular velocity of the orientation in the middle of the step, as all but rigid/nve and its like do.
+   Check that one fix for rigid bodies, and no other fix, moves the particles of the bodies.  Return true if the fix moves
+   them with the angular velocity of the orientation in the middle of the step, as all but rigid/nve and similar fixes do.
 ------------------------------------------------------------------------- */
 
 bool FixSPHWall::check_movers() const
@@ -167,7 +165,7 @@ bool FixSPHWall::check_movers() const
   if (group->count(igroup) == 0)
     error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
   std::vector<int> movers(atom->nlocal, 0);
-  bool lagging = false, on_step = false;    // some of them
+  bool lagging = false, on_step = false;    // some movers do so
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
     if (other->rigid_flag) {
@@ -212,8 +210,8 @@ bool FixSPHWall::check_movers() const
 }
 
 /* ----------------------------------------------------------------------
-   The solver of large viscosities takes the mass of a body from its particles.  Check that the fix that moves it has not less:
-   with half of it, the error of the acting velocity grows from step to step.
+   Check that the fix that moves a body has no less mass than the particles, whose mass the solver of large viscosities uses:
+   with half the mass, the error of the acting velocity grows from step to step.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_masses() const
@@ -239,14 +237,14 @@ void FixSPHWall::check_masses() const
 }
 
 /* ----------------------------------------------------------------------
-   Warn if a periodic border cuts a body, or a wall that rotates, in two: it has particles on both sides of the border and none
-   in some other part of the box, but the first part of the box does not continue the image of the last one.
+   Warn if a periodic border cuts a body, or a rotating wall, in two: particles lie on both sides of the border and none in
+   some other part of the box, but the first part of the box does not continue the image of the last one.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_pieces(const Fluid *fluid) const
 {
   using Bits = long long;
-  constexpr double WIDTH = 1.5;    // of a part, in spacings, or more
+  constexpr double WIDTH = 1.5;    // least width of a part of the box, in spacings
   constexpr int MOST = 60;
   if (!bodies && !motion->rotates()) return;
   const std::size_t n = bodies ? bodies->size() : 1;
@@ -303,7 +301,8 @@ void FixSPHWall::check_pieces(const Fluid *fluid) const
 }
 
 /* ----------------------------------------------------------------------
-   With density continuity, the particles at a dry surface have the density of their body alone.
+   Warn if particles of bodies are dry with tension yes: with density continuity, they have the density of their body alone
+   and would pull on the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_tension(const Fluid *fluid) const
@@ -323,8 +322,7 @@ void FixSPHWall::check_tension(const Fluid *fluid) const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether the pair style of the fluid gets the pairs of two kinds of particles: also pair style hybrid
-   must let them through.
+   Return whether the pair style of the fluid gets the pairs of two kinds of particles, also from pair style hybrid.
 ------------------------------------------------------------------------- */
 
 static bool have_pairs(LAMMPS *lmp, const Fluid *fluid, const Kind &a, const Kind &b)
@@ -337,8 +335,8 @@ static bool have_pairs(LAMMPS *lmp, const Fluid *fluid, const Kind &a, const Kin
 }
 
 /* ----------------------------------------------------------------------
-   Check that pair coefficients, exclusions, and neigh_modify include let fluid and wall interact; warn, in
-   the first run, if only a part of the fluid does.  Return the types of the fluid that do.
+   Check that pair coefficients, exclusions, and neigh_modify include let fluid and wall interact; warn, in the first run, if
+   only a part of the fluid interacts with the wall.  Return the types of the fluid that interact.
 ------------------------------------------------------------------------- */
 
 std::set<int> FixSPHWall::interacting_types(const Fluid *fluid) const
@@ -403,7 +401,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     if (fluid->has_type(atom->type[i])) members.push_back(i);
   const Cells cells(x, members, support);
 
-  // for each particle j within the support radius of particle i
+  // call function(j, r, distance) for each particle j within the support radius of particle i
 
   auto for_neighbors = [&](int i, auto &&function) {
     cells.near(x[i], support, [&](int j, const double *r, double rsq) {
@@ -439,7 +437,7 @@ void FixSPHWall::check_thickness(const Fluid *fluid) const
     }
     if (nearest > 1.25 * spacing || !(lengths > 0.0)) continue;
 
-    double depth = 0.0;    // also of one layer with fluid on both sides, which cancel each other
+    double depth = 0.0;    // stays 0 for one layer with fluid on both sides, where normals cancel
     if (MathExtra::len3(normal) > ONE_SIDE * lengths) {
       MathExtra::norm3(normal);
       for_neighbors(i, [&](int j, const double *r, double) {

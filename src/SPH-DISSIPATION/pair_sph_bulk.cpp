@@ -70,10 +70,10 @@ static const char cite_sdpd[] =
     " doi =     {10.1103/PhysRevE.67.026705},\n"
     "}\n\n";
 
-// Adds the virial of each pair to the accumulators of the pair style; and, if there is such an array,
-// the dyad r_ij f_ij, half to each particle, to all nine components of the stress per atom in LAMMPS's
-// order xx yy zz xy xz yz yx zx zy: first index of r, second of f.  The forces are not central in
-// general, nor is the stress symmetric: xy - yx is the torque on the spins.
+// Adds the virial of each pair to the accumulators of the pair style; and, if the array exists, the dyad r_ij f_ij, half to
+// each particle, to all nine components of the stress per atom, in LAMMPS's order xx yy zz xy xz yz yx zx zy: first index of
+// r, second of f.  In general, the forces are not central and the stress is not symmetric: xy - yx is the torque on the
+// spins.
 
 class PairSPHBulk::StressTally : public PairTally {
  public:
@@ -132,7 +132,7 @@ PairSPHBulk::~PairSPHBulk()
 
 Fluid *SPHDissipation::find_fluid(Force *force)
 {
-  if (!force) return nullptr;    // LAMMPS is being taken down, fixes go last
+  if (!force) return nullptr;    // LAMMPS ends, and deletes fixes last
   for (const char *const name : {"^sph/bulk", "^sph/micropolar"})
     if (auto *pair = dynamic_cast<PairSPHBulk *>(force->pair_match(name, 0)))
       return pair->fluid.get();
@@ -147,7 +147,8 @@ Fluid *SPHDissipation::find_fluid(LAMMPS *lmp, const std::string &user)
 }
 
 /* ----------------------------------------------------------------------
-   r f is no virial of forces that are not of pairs; in hybrid, which sums r f itself, from the next step on
+   Turn off the virial by r f if single particles have a drag: r f is no virial of such forces.  Style hybrid sums r f itself
+   and follows from the next step on.
 ------------------------------------------------------------------------- */
 
 void PairSPHBulk::sum_virial_by_pairs()
@@ -194,7 +195,7 @@ void PairSPHBulk::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   papers of what is in use; LAMMPS prints each one once
+   Cite the papers of the settings in use; LAMMPS prints each citation once.
 ------------------------------------------------------------------------- */
 
 void PairSPHBulk::cite()
@@ -225,8 +226,8 @@ void PairSPHBulk::init_style()
 }
 
 /* ----------------------------------------------------------------------
-   init for one type pair i,j and corresponding j,i
-   also called when another command, such as fix adapt, has changed coefficients
+   Return the cutoff of a pair of types.  LAMMPS also calls this function after another command, such as fix adapt, has
+   changed coefficients.
 ------------------------------------------------------------------------- */
 
 double PairSPHBulk::init_one(int i, int j)
@@ -244,7 +245,7 @@ void *PairSPHBulk::extract(const char *name, int &ndim)
 }
 
 /* ----------------------------------------------------------------------
-   restart and data files: proc 0 writes, proc 0 reads and bcasts
+   Write and read restart and data files: rank 0 writes, rank 0 reads and broadcasts.
 ------------------------------------------------------------------------- */
 
 void PairSPHBulk::write_restart(FILE *fp)
@@ -282,7 +283,7 @@ void PairSPHBulk::write_data_all(FILE *fp)
 }
 
 /* ----------------------------------------------------------------------
-   what the stages send
+   Pack and unpack the messages of the stages.
 ------------------------------------------------------------------------- */
 
 int PairSPHBulk::pack_forward_comm(int n, int *list, double *buf, int /*pbc_flag*/, int * /*pbc*/)

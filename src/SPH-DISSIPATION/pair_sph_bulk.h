@@ -29,14 +29,14 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   class Fluid;
 
-  // The fluid of the pair style, of whatever name, alone or in hybrid/overlay.  If there is none: nullptr,
-  // or an error that names the user, "Fix sph/wall".  Another pair style has another one.
+  // Return the fluid of the pair style, of any name, alone or in pair_style hybrid.  Without one, return nullptr, or stop
+  // with a message in the name of the user, "Fix sph/wall".  Do not keep the pointer: another pair style has another fluid.
 
   Fluid *find_fluid(class Force *);
   Fluid *find_fluid(class LAMMPS *, const std::string &user);
 }    // namespace SPHDissipation
 
-// LAMMPS's interface to a Fluid
+// Interface of LAMMPS to a Fluid
 
 class PairSPHBulk : public Pair {
  public:

@@ -25,8 +25,8 @@ namespace SPHDissipation {
   class Fields;
   struct OpenImpact;
 
-  // What a fix has added to the fluid and taken from it since it was defined: sums of this
-  // processor; total() gives those of all processors.
+  // Balance of what a fix has added to and taken from the fluid since the fix was defined: sums of this processor; total()
+  // sums over all processors.
 
   class Balance : protected Pointers {
    public:
@@ -45,8 +45,7 @@ namespace SPHDissipation {
     enum { MASS = 1, MOMENTUM = 2, ANGMOM = 5, KINETIC = 8, NCOUNTED };    // after the first
   };
 
-  // Particles that have come through the plane of a buffer zone, and what the forces of the zone have
-  // done to the fluid
+  // Particles that have come through the plane of a buffer zone; impulse and work of the forces of the zone on the fluid
 
   class OpenBalance : public Balance {
    public:
@@ -56,17 +55,17 @@ namespace SPHDissipation {
 
     OpenBalance(LAMMPS *lmp) : Balance(lmp, NVALUE), rate() {}
 
-    // an owned particle changes sides with this velocity and internal energy
+    // Add an owned particle that changes sides with this velocity and internal energy
     void carry(Direction, int i, const double *v, double esph, const Fields &);
 
-    void set_impact(const OpenImpact &);    // by the present forces
-    void advance(double time);              // those act for this time
+    void set_impact(const OpenImpact &);    // of the present forces
+    void advance(double time);              // adds the impact of these forces over a time
 
    private:
     double rate[NVALUE - IMPULSE];
   };
 
-  // What splits and merges have changed: afterwards - before
+  // Changes by splits and merges: afterwards - before
 
   class RefineBalance : public Balance {
    public:
@@ -86,7 +85,7 @@ namespace SPHDissipation {
 
     void merged(double heat);
 
-    // a particle that is there afterwards, factor 1, or was there before, factor -1
+    // Add a particle that is there afterwards, factor 1, or was there before, factor -1
     void count(double factor, const Lump &);
 
     void total(double *all) const;

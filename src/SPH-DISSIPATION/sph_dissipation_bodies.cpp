@@ -31,7 +31,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// sums over the particles of a body
+// Places of the sums over the particles of a body
 
 enum {
   MASS,
@@ -43,7 +43,7 @@ enum {
 };
 
 /* ----------------------------------------------------------------------
-   bodies in the order of their molecules, on all processors
+   Find the bodies, in the order of their molecules, on all processors.
 ------------------------------------------------------------------------- */
 
 void Bodies::init(bool by_molecule_in, bool lagging_in)
@@ -80,7 +80,7 @@ int Bodies::of(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Center, velocity, and inertia of all bodies.  Sums are about the last known center, so that they lose no digits.
+   Find center, velocity, and inertia of all bodies.  Sums are about the last known center, so that they lose no digits.
 ------------------------------------------------------------------------- */
 
 void Bodies::sum(double **velocity)
@@ -135,7 +135,7 @@ void Bodies::sum(double **velocity)
 }
 
 /* ----------------------------------------------------------------------
-   of a line or a point without the directions in which it has no inertia
+   Find the principal axes and moments; the moment is 0 in directions in which a line or a point has no inertia.
 ------------------------------------------------------------------------- */
 
 void Bodies::find_axes(Body &body) const
@@ -155,7 +155,8 @@ void Bodies::find_axes(Body &body) const
 }
 
 /* ----------------------------------------------------------------------
-   I^-1 L, along the principal axes, or in space
+   turn_along(): I^-1 L along the principal axes; from_axes(): the same vector in space; set_acting(): set the acting
+   velocity
 ------------------------------------------------------------------------- */
 
 static void turn_along(const Bodies::Body &body, const double *angular, double *rate)
@@ -213,7 +214,7 @@ void Bodies::velocity_of(int i, const double *center, const double *omega, doubl
 bool Bodies::start(bool keep)
 {
   constexpr double ROUNDOFF = 1.0e-12;
-  if (!begun) sum(atom->v);    // centers, about which the next sums are
+  if (!begun) sum(atom->v);    // finds the centers for the next sums
   sum(atom->v);
   bool same = true;
   for (int k = 0; k < size(); k++) {
@@ -248,9 +249,9 @@ bool Bodies::start(bool keep)
 }
 
 /* ----------------------------------------------------------------------
-   The rotation of a step is that by the angular velocity in its middle.  The angular momentum, which gets the torques, belongs to
-   the orientation in the middle if the particles move with its angular velocity.  Forces of others are what the bodies have got
-   in the first half of the step, and not by the pair style.
+   The rotation of a step is that by the angular velocity in its middle.  The angular momentum, to which the torques are
+   added, belongs to the orientation in the middle if lagging.  The forces of others are the change of momentum in the first
+   half of the step that the pair style does not explain.
 ------------------------------------------------------------------------- */
 
 void Bodies::advance(double extrapolation)
@@ -338,7 +339,7 @@ void Bodies::sum_forces(const std::function<const double *(int)> &force, double 
 }
 
 /* ----------------------------------------------------------------------
-   See TimeStep and rest_of_heat() of the fluid: half a kick from the first velocity to the second one
+   Return the rest of heat, see rest_of_heat(), for half a kick from the first velocity to the second one.
 ------------------------------------------------------------------------- */
 
 double Bodies::rest_between(const Body &body, const double *v, const double *angular,

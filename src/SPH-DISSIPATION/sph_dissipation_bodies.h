@@ -25,20 +25,20 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   struct ForceSum;
 
-  // Rigid bodies of particles that another fix moves: place and velocity of each from those of its particles, and the
-  // velocity at the end of a step, extrapolated from that of its middle
+  // Rigid bodies of particles that another fix moves: finds place and velocity of each body from its particles, and
+  // extrapolates the acting velocity, that in the forces, from the middle of the step to its end
 
   class Bodies : public RigidMotions, protected Pointers {
    public:
     struct Body {
-      double mass, x[3], v[3], omega[3];    // center of mass; acting velocity, of the forces
+      double mass, x[3], v[3], omega[3];    // x: center of mass; v, omega: acting velocity
       double angular[3], inertia[6];        // angular momentum, about the center: xx yy zz xy xz yz
       double v_end[3], angular_end[3];      // at the end of the last step
-      double axis[3][3], moment[3];         // principal ones; 0 without inertia
+      double axis[3][3], moment[3];         // principal axes and moments; 0 without inertia
       double v_middle[3], angular_middle[3];    // in the middle of the last step
-      double own[2][3], others[2][3];    // last force and torque of the pair style, of others
+      double own[2][3], others[2][3];    // last force, torque: of the pair style; of all others
       double rest;                       // see rest_of_heat()
-      double rotation[3][3];             // of the last step
+      double rotation[3][3];             // rotation of the last step
     };
 
     Bodies(class LAMMPS *lmp, int groupbit, const std::string &owner, const std::string &id) :
@@ -46,30 +46,30 @@ namespace SPHDissipation {
     {
     }
 
-    // A body is a molecule, or all particles are one; at the start of a run.  lagging: the fix that moves them gives them the
-    // angular velocity of the orientation in the middle of the step
+    // At the start of a run: find the bodies, molecules or all particles as one.  lagging: the fix that moves the bodies
+    // gives their particles the angular velocity of the orientation in the middle of the step
     void init(bool by_molecule, bool lagging);
 
     int size() const override { return static_cast<int>(bodies.size()); }
     const Body &operator[](int k) const { return bodies[k]; }
     int of(int i) const;    // body of an owned particle
 
-    // velocity of a body at the place of an owned particle
+    // Get the acting velocity of its body at the place of an owned particle
     void velocity_at(int i, double *v) const;
 
-    // At the start of a run, with the velocities of the particles; keep: the acting velocity is vest of the particles.
-    // Returns whether the bodies move as at the end of the last step.
+    // At the start of a run: take the velocities of the particles; return whether the bodies move as at the end of the last
+    // step.  keep: in this case, the acting velocity is vest of the particles
     bool start(bool keep);
-    // after the particles have moved: the acting velocity is that of the middle of the step, with this part of the increment
-    // on it that there was since the last step
+    // After the particles have moved: set the acting velocity to that of the middle of the step, plus this factor times the
+    // increment since the end of the last step
     void advance(double extrapolation);
-    void end_step();    // with the velocities at the end of the step
+    void end_step();    // takes the velocities at the end of the step
 
-    // of the pair style, at the end of a step and at the start of a run, on the owned particles
+    // Take the forces of the pair style on the owned particles, at the end of a step and at the start of a run
     void note_forces(const ForceSum *);
 
-    // with these: energy of half a step, by which the forces of the pair style work at another velocity than the acting one, of an
-    // owned particle of its body
+    // Return the share of an owned particle in the energy that half a kick misses: the work of the forces of the pair style
+    // at the acting velocity less that at the velocity of the kick
     double rest_of_heat(int i) const;
 
     void append(bool starts, RigidRows &) const override;
@@ -78,7 +78,7 @@ namespace SPHDissipation {
     void add_forces(const std::function<const double *(int)> &, double *) const override;
     void act(const double *) override;
 
-    // motion at the end of the last step in restart files: a number of each body and six for its velocity
+    // Motion at the end of the last step in restart files: the name of each body and six numbers for its velocity
     static constexpr int NRESTART = 7;
     void pack_restart(std::vector<double> &) const;
     void restart(const double *, int n);
@@ -87,7 +87,7 @@ namespace SPHDissipation {
     const int groupbit;
     const std::string owner, id;
     bool by_molecule = false, lagging = false, begun = false;
-    std::unordered_map<tagint, int> number;    // of molecules
+    std::unordered_map<tagint, int> number;    // of bodies, by molecule
     std::vector<tagint> names;
     std::vector<Body> bodies;
     std::unordered_map<tagint, std::vector<double>> known;    // from a restart file

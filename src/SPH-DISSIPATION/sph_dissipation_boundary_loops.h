@@ -11,12 +11,11 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The loops over pairs of the fluid and boundary particles; compiled as sph_dissipation_loops.h, which includes this file inside
-// its namespace.
+// The loops over pairs of fluid and boundary particles; sph_dissipation_loops.h includes this file inside its namespace.
 
 #include "sph_dissipation_boundary_terms.h"
 
-// r = x_w - x_f of a block of pairs
+// Load r = x_w - x_f of a block of pairs; r[3] = the number behind x in the rows
 
 SPH_INLINE void load_r(const Particle &wall, const Particle *particle, const Offset *j, Vec *r)
 {
@@ -24,14 +23,14 @@ SPH_INLINE void load_r(const Particle &wall, const Particle *particle, const Off
   for (int d = 0; d < 3; d++) r[d] = wall.x[d] - r[d];
 }
 
-// W of one
+// Load W of a block of pairs
 
 template <class K> SPH_INLINE Vec load_weight(const Parameters &par, const double *distance)
 {
   return par.weight_norm * K::shape(smaller(load(distance) * (1.0 / par.support), all(1.0)));
 }
 
-// of all candidates the pairs inside the support
+// Find the pairs inside the support among all candidates
 
 template <class K> void boundary_pairs_loop(const LoopData &data, BoundaryRows &rows)
 {
@@ -69,7 +68,7 @@ template <class K> void boundary_pairs_loop(const LoopData &data, BoundaryRows &
   }
 }
 
-// what they fill of the supports of NearKernel around particles of the fluid
+// Add the parts of the NearKernel supports of fluid particles that boundary particles fill
 
 template <class K>
 void filled_loop(const BoundaryRows &rows, const NearKernel *near, double *filled)
@@ -86,7 +85,7 @@ void filled_loop(const BoundaryRows &rows, const NearKernel *near, double *fille
   }
 }
 
-// the sums of BoundarySum
+// Sums of BoundarySum
 
 struct OneVector {
   typedef Vec type;
@@ -133,7 +132,7 @@ void boundary_sum_loop(const LoopData &data, const BoundaryRows &rows, const Bou
   }
 }
 
-// those of BoundaryHeatSum
+// Sums of BoundaryHeatSum
 
 struct FlowColumns {
   Vec vol, value, coefficient;
@@ -164,7 +163,7 @@ void boundary_heat_loop(const LoopData &data, const BoundaryRows &rows, const Bo
   }
 }
 
-// F times surface_factor() less a number, of some of the rows
+// Set slope = F (surface_factor() - less) of the pairs in some of the rows
 
 inline void surface_slope_loop(const LoopData &data, const BoundaryRows &rows,
                                const std::vector<int> &some, const Surface *surfaces, double less,

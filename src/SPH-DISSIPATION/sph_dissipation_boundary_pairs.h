@@ -22,33 +22,33 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // a pair of a fluid and a boundary particle inside the support
+  // Pair of a fluid and a boundary particle inside the support
 
   struct BoundaryPair {
     int fluid, wall;
     double distance, slope;    // r, F
   };
 
-  // Pairs of the fluid and boundary particles of one thread, in rows of one boundary particle each.  Those of row m have the
+  // Pairs of fluid and boundary particles of one thread, one row for each boundary particle.  The pairs of row m have the
   // places first[m], first[m] + 1, ... in the arrays of pairs.
 
   struct BoundaryRows {
-    std::vector<int> wall;        // of each row
-    std::vector<bigint> first;    // of each row, and the end
+    std::vector<int> wall;        // boundary particle of each row
+    std::vector<bigint> first;    // place of each row, and the end
 
-    // until the neighbor list is built anew, all pairs that may come into the support: particles of the fluid, and their
-    // copies in SurfacePairs (no copies: no numbers); a row is filled up with spare particles
+    // All pairs that may come into the support until the neighbor list is built anew: fluid particles, and their copies in
+    // SurfacePairs (empty without copies); spare particles fill up a row
 
     std::vector<Offset> candidate, candidate_copy;
 
-    // of each step, those inside the support: how many in each row; the same, r, and F; a block is filled up with the first
-    // particle and a spare copy at the distance of the support radius, where F is 0
+    // Pairs inside the support in this step: number in each row; fluid particles and copies, r, and F.  The first particle
+    // and a spare copy at the distance of the support radius, where F is 0, fill up a block
 
     std::vector<int> count;
     std::vector<Offset> fluid, copy;
     std::vector<double> distance, slope;
 
-    // begin(), add() each row of n candidates, end()
+    // Fill by begin(), add() for each row of n candidates, end()
     void begin()
     {
       wall.clear();
@@ -86,7 +86,7 @@ namespace SPHDissipation {
 
   struct BoundaryPairs {
     std::vector<BoundaryRows> of_thread;
-    // rows of the neighbor list that hold pairs, of each thread; particles in the pairs of each thread but the first, once
+    // rows of the neighbor list with pairs, of each thread; particles in the pairs of each thread but the first, each once
     std::vector<std::vector<int>> rows, touched;
 
     template <class Function> void visit(Function &&function) const
@@ -96,17 +96,17 @@ namespace SPHDissipation {
     double memory_usage() const { return bytes(of_thread, rows, touched); }
   };
 
-  // what the fluid around boundary particles adds up to, of rows of those with these bits in their mask
+  // Input and output of the sums over the fluid around boundary particles with these bits in their mask
 
   struct BoundarySumData {
     const int *mask;
     int bits;
     const Surface *surface;
     const double *rho, *reference_volume;
-    BoundarySum *sum;    // to which is added
+    BoundarySum *sum;    // the loops add to it
   };
 
-  // the same of the fluid that conducts heat
+  // Input and output of the sums over the fluid that conducts heat
 
   struct BoundaryHeatData {
     const int *type;

@@ -34,8 +34,8 @@ using namespace SPHDissipation;
 
 // Repulsion of the surfaces with thermal noise, see contact_kernel(): half of the stiffness, 32 kT inside of lattices
 
-static constexpr double HARDNESS = 150.0;           // of kT
-static constexpr double HARDNESS_OF_SOUND = 0.5;    // where particles have temperatures: of m c0^2
+static constexpr double HARDNESS = 150.0;           // k/2 of the repulsion with temp T, over kT
+static constexpr double HARDNESS_OF_SOUND = 0.5;    // the same with temp energy, over m c0^2
 
 /* ---------------------------------------------------------------------- */
 
@@ -118,7 +118,9 @@ void BoundaryStage::run(NeighList *list)
   extend_temperatures(false);
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the pairs of this step and move the surfaces; with a new neighbor list, find candidates, bodies, and surfaces before.
+------------------------------------------------------------------------- */
 
 void BoundaryStage::begin(NeighList *list)
 {
@@ -154,7 +156,8 @@ void BoundaryStage::find_bodies()
 }
 
 /* ----------------------------------------------------------------------
-   The neighbor lists do not have the pairs within a body.  They do not change until lists are built anew.
+   Sum the number density of each body particle over the others of its body, whose pairs are not in the neighbor lists.  The
+   sums do not change until lists are built anew.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::sum_bodies()
@@ -180,8 +183,8 @@ void BoundaryStage::sum_bodies()
 }
 
 /* ----------------------------------------------------------------------
-   where particles of two bodies, or of a body and a wall, are so close that no fluid fits between them; another pair style may keep
-   them apart.  Once
+   Warn once if particles of two bodies, or of a body and a wall, are so close that no fluid fits between them.  With
+   pair_style hybrid, another style may keep them apart.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::warn_of_contact()
@@ -221,7 +224,7 @@ bool BoundaryStage::is_body(int i) const
 void BoundaryStage::set_frozen(int i, const double *gravity)
 {
   const ParticleRows &rows = engine.rows();
-  double c = engine.density[i].c;    // with an offset it has the other particles of the body
+  double c = engine.density[i].c;    // with an offset, c includes the other particles of the body
   if (!rows.par.continuity)
     c += own_numden[i];
   else if (!(rows.rho_sum[i] < 0.0))
@@ -236,13 +239,14 @@ void BoundaryStage::set_frozen(int i, const double *gravity)
 }
 
 /* ----------------------------------------------------------------------
-   With density continuity, a particle whose surroundings are full of fluid begins with the pressure of this fluid, at rest, and
-   one whose surroundings are empty with the density of its body alone, for which water that comes is no compression.
+   Return the first c of a body particle with density continuity, and set its rho_sum.  Where fluid fills the rest of the
+   support, c gives the pressure of this fluid at rest; where nothing does, c is that of the body alone, which water that
+   comes later does not compress.
 ------------------------------------------------------------------------- */
 
 double BoundaryStage::begin_frozen(int i, const double *gravity)
 {
-  constexpr double EMPTY = 0.8, FULL = 1.0;    // of what the body leaves of the support
+  constexpr double EMPTY = 0.8, FULL = 1.0;    // filled part of the support without the body
   constexpr double REST[3] = {0.0, 0.0, 0.0};
   const Parameters &par = engine.parameters();
   const EosParams &eos = par.type[atom->type[i]].eos;
@@ -284,7 +288,7 @@ void BoundaryStage::extend(bool increments)
       engine.particle[i].g = pressure_term(p, atom->vfrac[i], engine.weight(i));
     });
 
-  // pass 2 leaves the friction to add_friction(), but for the part that a noise with numbers of each partner needs
+  // volume 0 turns off friction in pass 2: add_friction() adds all, unless the noise has numbers of each partner
 
   if (symmetric_bits && !engine.parameters().directed_noise())
     engine.for_each(atom->nlocal, [&](int i) {
@@ -307,7 +311,8 @@ void BoundaryStage::note_pressures()
 }
 
 /* ----------------------------------------------------------------------
-   of those whose heat add_friction() does not give to the fluid; a minimization has no velocities
+   Set the excess of boundary particles without symmetric friction, so that pass 2 gives all heat of friction to the fluid;
+   nothing in a minimization, which has no velocities.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::set_excess()
@@ -390,7 +395,7 @@ double BoundaryStage::stiffness(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   over() of ghosts too
+   Return the force of a pair.  Of a ghost, over() needs `filled`: forward it first.
 ------------------------------------------------------------------------- */
 
 BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
@@ -409,7 +414,7 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
 }
 
 /* ----------------------------------------------------------------------
-   the boundary particles of one boundary, or of one body, are rigid together
+   Find the pairs with symmetric friction.  The particles of one boundary, or of one body, are rigid together.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::find_surface_pairs()
@@ -430,8 +435,8 @@ void BoundaryStage::find_surface_pairs()
 }
 
 /* ----------------------------------------------------------------------
-   Sums of surface_pairs.  Copies have no pressure, and boundary particles their volume, which pass 2 has not.  With the
-   velocity u - omega x r and the spin relative to the body, differences of copies are those in its frame.
+   Compute the sums of surface_pairs.  Copies have g = 0; boundary particles have their volume vfrac, which extend() may have
+   set to 0 for pass 2.  With u - omega x r and relative spins, differences of copies are those in the frame of the body.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const StepNoise *noise,
@@ -466,8 +471,8 @@ void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const Step
 }
 
 /* ----------------------------------------------------------------------
-   Where particles have temperatures, the loops give all heat of friction to the fluid, and the flow of heat to both;
-   elsewhere half of it to each, of which the fluid gets both.
+   Add forces, torques and heat of surface_pairs.  With temp energy, the loops give all heat of friction to the fluid and the
+   flow of heat to both partners; else half of the heat to each, and the fluid gets both halves here.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
@@ -490,7 +495,7 @@ void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
     });
   if (!directed) return;
 
-  // the half of the heat that pass 2 gave the wall
+  // give the fluid the half of the heat that pass 2 gave the wall
 
   run_friction(FrictionPart::BODY, nullptr, nullptr, false);
   for (const auto &own : surface_pairs)
@@ -518,7 +523,7 @@ void BoundaryStage::add_linear_friction()
 }
 
 /* ----------------------------------------------------------------------
-   the force of the pressure of a wall is in pass 2 already
+   Add forces and heating of the repulsion, and with noise minus the work of the pressure of walls, whose force pass 2 has.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::repel(PairTally *tally)
@@ -626,7 +631,8 @@ double BoundaryStage::energy(double *each_atom) const
 }
 
 /* ----------------------------------------------------------------------
-   add(i, energy) for pairs of the first n atoms, and for each owned atom
+   Call add(i, energy): with noise for the pressure of walls, by pair of a fluid particle i < n and a wall particle; for the
+   repulsion, by owned fluid particle i.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &add) const
@@ -645,7 +651,9 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
     if (!(atom->mask[i] & group_bits)) add(i, energy_of_repulsion(stiffness(i), over(i)));
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the pairs of fluid and boundary particles in a new neighbor list, and share them among the threads.
+------------------------------------------------------------------------- */
 
 void BoundaryStage::find_candidates(NeighList *list)
 {
@@ -660,7 +668,7 @@ void BoundaryStage::find_candidates(NeighList *list)
       return contact_kernel(par.dim, par.support, ContactKernel::norm(par.dim), volume);
     });
 
-  // by thread, in the order of the list
+  // candidates of each thread, in the order of the list
 
   struct Candidate {
     int fluid, wall;
@@ -687,7 +695,7 @@ void BoundaryStage::find_candidates(NeighList *list)
       for (const int ii : part) engine.excess[list->ilist[ii]].crosses = 1.0;
   }
 
-  // in the order of the boundary particles, of which each thread gets whole ones
+  // sort the candidates by boundary particle; each boundary particle belongs to one thread
 
   std::vector<bigint> next(nall + 1, 0);
   for (const auto &part : found)
@@ -736,7 +744,7 @@ BoundaryStage::of_boundaries(const std::function<NearKernel(double)> &of_volume)
 }
 
 /* ----------------------------------------------------------------------
-   what boundary particles fill of the supports of owned atoms
+   Set part[i] to the part of the kernel support of owned atom i that boundary particles fill.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::find_filled(Kernel kernel, const std::vector<NearKernel> &kernels,
@@ -751,7 +759,7 @@ void BoundaryStage::find_filled(Kernel kernel, const std::vector<NearKernel> &ke
 }
 
 /* ----------------------------------------------------------------------
-   those inside the support; the filled parts of owned atoms
+   Find the pairs inside the support and, if walls repel, the filled parts of owned atoms.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::find_pairs()
@@ -764,7 +772,7 @@ void BoundaryStage::find_pairs()
 }
 
 /* ----------------------------------------------------------------------
-   of owned atoms
+   Sum up the fluid around the owned particles of the boundaries in sum_bits.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::accumulate()
@@ -822,7 +830,8 @@ void BoundaryStage::accumulate_heat()
 }
 
 /* ----------------------------------------------------------------------
-   When the neighbor list is new: in between nothing gets farther than half the skin, if LAMMPS looks for that in each step
+   Stop if a particle of the fluid is inside a wall: with a new neighbor list, and in each step unless LAMMPS builds lists as
+   soon as a particle has moved by half the skin.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::check(bool found)

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The pairs of a particle f of the fluid and a particle w of a boundary, in vectors of f on the CPU, one by one on a device.
-// Included in more than one namespace, as sph_dissipation_pair_terms.h: see there.  The namespace must also have larger(a, b) and
+// Terms of pairs of a fluid particle f and a boundary particle w: vectors of f on the CPU, single pairs on a device.
+// Included in more than one namespace, see sph_dissipation_pair_terms.h; the namespace must also have larger(a, b) and
 // smaller(a, b).
 //
 // r = x_w - x_f; S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012)
@@ -22,24 +22,24 @@ template <class Real> SPH_INLINE Real along(const double *a, const Real *b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// V W of a boundary particle at a distance r from it
+// Return V W of a boundary particle at the distance r
 
 template <class K, class Real> SPH_INLINE Real part_filled(const NearKernel &wall, Real r)
 {
   return wall.norm * K::shape(smaller(r * wall.scale, Real() + 1.0));
 }
 
-// distance of f from the surface
+// Return the distance of f from the surface, at least CLOSEST spacings
 
 template <class Real> SPH_INLINE Real height_above(const Surface &s, const Real *r)
 {
   return larger(-s.depth - along(s.normal, r), Real() + CLOSEST * s.spacing);
 }
 
-// Symmetric friction across a surface: the pair of f with w has that of the velocity of the body itself, times (d + h)/d
-// with the distances d of f and h of w from the surface.  Of a velocity that is zero at the surface and linear in d, this
-// is the force of its continuation behind the surface, -h times its slope.  Where the surface is not known, d is that of
-// the first layer of a lattice.
+// Return the factor of symmetric friction, (d + h)/d, with the distances d of f and h of w from the surface: the friction
+// with the velocity of the body, times this factor, is that with the continuation behind the surface, -h times the slope, of
+// a velocity that is zero at the surface and linear in d.  If the surface is not known, d is that of the first layer of a
+// lattice.
 
 template <class Real>
 SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)
@@ -62,8 +62,8 @@ SPH_INLINE void add_distances(Real weight, Real height, Sums &total)
   total.d6 += weight_d4 * height * height;
 }
 
-// Contribution of f to the sums of w, kernel_weight = W(r), w_f = weight of f in the loops, vol_0 = its mass over the reference
-// density of its type.  Returns the distance of f from the surface.  F: members u, vol, g as those of a Particle
+// Add f to the sums of w; return the distance of f from the surface.  kernel_weight = W(r), w_f = weight of f in the loops,
+// vol_0 = its mass over the reference density of its type.  F has the members u, vol, g of a Particle
 
 template <class Real, class F, class Number>
 SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real kernel_weight,
@@ -91,7 +91,7 @@ SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real ker
   return height;
 }
 
-// the same for its spin, weight = V_f W, height from add_fluid()
+// Add the spin of f to the sums of w; weight = V_f W, height from add_fluid()
 
 template <class Real, class Number>
 SPH_INLINE void add_fluid_spin(const Real *spin, Real weight, Real height, const Surface &s,
@@ -104,8 +104,8 @@ SPH_INLINE void add_fluid_spin(const Real *spin, Real weight, Real height, const
   }
 }
 
-// the same for its temperature if it conducts heat, weight_f = V_f W, slope = F; F: members vol, value, coefficient as those of a
-// FlowRow; coefficient of w
+// Add the temperature of f, if it conducts heat, to the sums of w; weight_f = V_f W, slope = F, coefficient = that of w.
+// F has the members vol, value, coefficient of a FlowRow
 
 template <class Real, class F, class Number>
 SPH_INLINE void add_fluid_heat(const F &f, Real weight_f, Real slope, Real height,

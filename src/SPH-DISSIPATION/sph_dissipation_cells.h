@@ -24,8 +24,8 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Some of the particles, sorted into cubic cells, to find those within a radius of a place.  For
-  // pairs that the neighbor lists do not have.
+  // Some of the particles, sorted into cubic cells, to find those within a radius of a place.  For pairs that are not in the
+  // neighbor lists.
 
   class Cells {
    public:
@@ -56,7 +56,7 @@ namespace SPHDissipation {
       member = std::move(sorted);
     }
 
-    // function(j, x_j - place, its square) for each member j within the radius, itself included
+    // Call function(j, x_j - place, |x_j - place|^2) for each member j within the radius, also for one at the place
 
     template <class Function>
     void near(const double *place, double radius, Function &&function) const

@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Bulk viscosity: a term of each particle in the rate of its volume, which acts through its pressure.
+// Bulk viscosity: each particle has a pressure that is proportional to the rate of its volume.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -20,7 +20,7 @@ ChannelClass(BulkChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// F V_i V_j (zeta_i cdot_i/c_i + zeta_j cdot_j/c_j) r of the form volume, P1 (64)
+// Return the force F V_i V_j (zeta_i cdot_i/c_i + zeta_j cdot_j/c_j) r of the form volume, over r; P1 (64)
 template <class Real> SPH_INLINE Real volume_term(double zeta_term_i, Real zeta_term_j, Real vv)
 {
   return (zeta_term_i + zeta_term_j) * vv;
@@ -37,13 +37,13 @@ namespace SPHDissipation {
   // density: f_i = zeta sum_j (V_i^3 cdot_i + V_j^3 cdot_j) F r_ij             P1 (18)
   // volume:  f_i = zeta sum_j (V_i cdot_i + V_j cdot_j) F r_ij V_i V_j         P1 (64)
 
-  // coefficient of the bulk term; intrinsic = bulk viscosity of the pair terms; P1 (67)
+  // Return the coefficient of the bulk term; intrinsic = bulk viscosity of the pair terms; P1 (67)
   inline double bulk_coefficient(double kappa, double intrinsic)
   {
     return kappa - intrinsic;
   }
 
-  // heat of a particle, energy per time: zeta V (cdot/c)^2 (density); zeta V cdot/c D with the divergence
+  // Return the heat of a particle, energy per time: zeta V (cdot/c)^2 (density); zeta V cdot/c D with the divergence
   // D_i = -sum_j V_j F r.u (volume)
   SPH_FUNCTION double bulk_heat(Bulk bulk, double zeta_term, double vol, double weight, double cdot,
                                 double divergence)
@@ -51,9 +51,9 @@ namespace SPHDissipation {
     return zeta_term * vol * ((bulk == Bulk::VOLUME) ? divergence : cdot * vol / weight);
   }
 
-  // A negative coefficient dissipates, with the drag of the pairs, as long as zeta B >= -1/2 with the bound
-  // B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij, where a_ij is the central weight of a pair (theory page).
-  // What a pair of slope F and square distance rsq adds to it, for volumes and reference volumes V, w:
+  // With a negative coefficient, bulk term and drag of the pairs together dissipate if zeta B >= -1/2 with the bound
+  // B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij, where a_ij is the central weight of a pair (theory page).  bound_of_pair()
+  // returns the part of a pair of slope F and square distance rsq, for volumes and reference volumes V, w:
   struct PairBound {
     double i, j;
   };
@@ -74,7 +74,7 @@ namespace SPHDissipation {
     return -0.5 / bound;
   }
 
-  // fastest mode, in units of zeta/(rho h^2), found as those of shear_rate()
+  // Rate of the fastest mode, in units of zeta/(rho h^2), found as those of shear_rate()
   constexpr double BULK_RATE = 1.6;
 
   struct BulkChannel : BaseChannel {

@@ -12,8 +12,8 @@
 ------------------------------------------------------------------------- */
 
 // Linear drag of each particle against a uniform stream, per volume -b (u - U): friction on the bottom of a thin
-// layer (Rayleigh, Hele-Shaw) or in a porous medium (Darcy, Brinkman).  Half its heat is the dissipation
-// function, 1/2 sum_i b V_i |u_i - U|^2; H. C. Brinkman, Appl. Sci. Res. A 1, 27 (1949).
+// layer (Rayleigh, Hele-Shaw) or in a porous medium (Darcy, Brinkman).  The dissipation function is half of the heat,
+// 1/2 sum_i b V_i |u_i - U|^2; H. C. Brinkman, Appl. Sci. Res. A 1, 27 (1949).
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS

@@ -21,7 +21,7 @@ ChannelClass(HeatChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// square of the random flow, in units of 2 k_B/dt
+// Return the square of the random flow, in units of 2 k_B/dt
 template <class Real>
 SPH_INLINE Real heat_noise(Real conductivity, Real vv, double temperature_i, Real temperature_j)
 {
@@ -40,7 +40,7 @@ namespace SPHDissipation {
     static constexpr const char *NAME = "heat";
     static constexpr bool OF_MOTION = false, OPTIONAL = true;
     static constexpr bool STIFF = true, IN_PASS_2 = true;
-    enum { CONDUCTIVITY, GAMMA, T0 };    // the last two: of the equation of state
+    enum { CONDUCTIVITY, GAMMA, T0 };    // GAMMA and T0 belong to the equation of state
     static constexpr int NTYPE = 3;
     static constexpr std::array<TypeKeyword, 2> TYPE_KEYWORDS = {
         {{"conductivity", 1, 0, HEAT_CAPACITY},
@@ -72,7 +72,7 @@ namespace SPHDissipation {
     {
       return (type[GAMMA] == 0.0 && type[T0] != 0.0) ? "T0 of gruneisen 0" : nullptr;
     }
-    // of the form morris, with k/(rho cv) instead of mu/rho
+    // Return the rate of the form morris, with k/(rho cv) instead of mu/rho
     static double rate(const PairFluid &fluid, const OwnWords &words, const double *,
                        const PairInertia &inertia)
     {

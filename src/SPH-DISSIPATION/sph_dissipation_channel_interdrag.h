@@ -11,10 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Drag between two unlike fluids that flow through each other, per volume of the mixture b phi_I phi_J (u_J - u_I)
-// with their volume fractions phi (Maxwell-Stefan): along the line of centers, so that angular momentum is
-// conserved.  Its dissipation function is 1/2 sum over pairs b F V_i V_j (u.r)^2.  The continuum limit needs no
-// factor, since the integral of F r r is the unit tensor.
+// Drag between two unlike fluids that flow through each other, per volume of the mixture b phi_I phi_J (u_J - u_I) with the
+// volume fractions phi (Maxwell-Stefan).  The force is along the line of centers, so that angular momentum is conserved.
+// The dissipation function is 1/2 sum over pairs b F V_i V_j (u.r)^2.  The continuum limit needs no factor, since the
+// integral of F r r is the unit tensor.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -46,7 +46,7 @@ namespace SPHDissipation {
     static constexpr const char *NAME = "interdrag";
 
     static constexpr bool OPTIONAL = true;
-    enum { B };    // of two unlike types
+    enum { B };    // coefficient of two unlike types
     static constexpr std::array<const char *, 1> UNLIKE_KEYWORDS = {"interdrag"};
     enum { DRAG, NPAIR };
 

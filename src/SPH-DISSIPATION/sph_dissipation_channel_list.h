@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The list of the channels, in the order of compute sph/dissipation: a line for each header.  sph_dissipation_channels.h
-// includes this list for each part of these headers.
+// The list of the channels, in the order of compute sph/dissipation: one line for each header.  sph_dissipation_channels.h
+// includes this list for each part of the headers.
 
 // clang-format off
 #include "sph_dissipation_channel_shear.h"

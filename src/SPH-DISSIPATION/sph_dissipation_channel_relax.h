@@ -22,13 +22,13 @@
 // term kappa_r dlnrho/dt, and the mean power of a wave is positive at every frequency (theory page).
 // Thermal noise adds sqrt(2 kB T dt/(m g tau)) xi to x.
 //
-// Vibration is the same of a gas, by energies: m cvib T_v of the internal energy of a particle is that of the
-// vibrations of its molecules, the pressure is that of the temperature T of the rest, m cv T, and
+// Vibration gives a gas such a relaxing bulk viscosity by energies: the vibrations of the molecules have the part m cvib T_v
+// of the internal energy of a particle, the rest, m cv T, makes the pressure, and
 //   dT_v/dt = (T - T_v)/tau_v,   dT/dt = w - cvib/cv (T - T_v)/tau_v
 // with the rate w from work and all other heat.  In a time step dt of constant w, with
 // tau_r = tau_v cv/(cv + cvib) and a = dt/tau_r, T_v grows by exactly
 //   tau_r/tau_v [(1 - e^-a) (T - T_v) + w (dt - tau_r (1 - e^-a))].
-// For sound it is the spring of tau = tau_r and rho g tau = p tau_v R cvib/(cv + cvib)^2, R = (gamma - 1) cv.
+// For sound this is the spring of tau = tau_r and rho g tau = p tau_v R cvib/(cv + cvib)^2, R = (gamma - 1) cv.
 // K. F. Herzfeld, T. A. Litovitz, Absorption and Dispersion of Ultrasonic Waves (1959).
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
@@ -45,27 +45,27 @@ ChannelClass(VibrationChannel)
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // a process of a type, in one time step
+  // Numbers of a process of a type for a time step
   struct Relaxation {
     double stiffness;    // g phi, velocity^2
-    double part;         // 1 - e^-a, of the strain that relaxes
+    double part;         // 1 - e^-a, part of the strain that relaxes
     double fluidity;     // 1/(g tau), time/velocity^2
     double noise;        // sqrt(2 dt/(g tau)), 1/velocity
   };
 
-  // the vibrations of a type, in one time step
+  // Numbers of the vibrations of a type for a time step: T_v grows by part (T - T_v) + delay w
   struct Vibration {
     double heat_capacity;    // cvib, per mass
     double rate;             // 1/tau_v
-    double part;             // of T - T_v, by which T_v grows
-    double delay;            // of w, by which T_v grows, time
+    double part;
+    double delay;    // time
   };
 
   struct RelaxChannel : BaseChannel, BaseState {
     static constexpr const char *NAME = "relax";
     static constexpr bool ELASTIC = true, OPTIONAL = true;
     static constexpr int MOST = 8;    // processes
-    enum { KAPPA_R, TAU, GROUP };     // of a process
+    enum { KAPPA_R, TAU, GROUP };     // numbers of a process
     static constexpr int NTYPE = GROUP * MOST;
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
         {{"relax", NTYPE, GROUP, NOTHING}}};
@@ -76,7 +76,7 @@ namespace SPHDissipation {
     static constexpr StateKind KIND = StateKind::STRAIN;
     typedef Relaxation Numbers;
 
-    // number of processes of a type
+    // Return the number of processes of a type
     static int count(const double *type)
     {
       int n = 0;
@@ -86,7 +86,7 @@ namespace SPHDissipation {
     static double kappa(const double *type, int k) { return type[GROUP * k]; }
     static double time(const double *type, int k) { return type[GROUP * k + TAU]; }
 
-    // process k of a type of the reference density rho0, in a time step dt
+    // Return the numbers of process k of a type with the reference density rho0, for a time step dt
     static Relaxation process(const double *type, int k, double rho0, double, double dt)
     {
       const double g_tau = kappa(type, k) / rho0, a = dt / time(type, k);
@@ -102,7 +102,7 @@ namespace SPHDissipation {
       return sum;
     }
 
-    // pressure rho g phi x, energy m g phi x^2/2, heat V p^2/kappa_r
+    // Return pressure over density, g phi x; energy, m g phi x^2/2; heat per mass and time, (p/rho)^2/(g tau)
     template <class Site> SPH_FUNCTION static double pressure(const Site &site)
     {
       return site.own.stiffness * site.strain();
@@ -146,7 +146,7 @@ namespace SPHDissipation {
   struct VibrationChannel : BaseChannel, BaseState {
     static constexpr const char *NAME = "vibration";
     static constexpr bool ELASTIC = true, OPTIONAL = true;
-    static constexpr bool OF_MOTION = false;    // its heat is that of RelaxChannel
+    static constexpr bool OF_MOTION = false;    // RelaxChannel gives out the heat
     enum { CVIB, TAU };
     static constexpr int NTYPE = 2;
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
@@ -159,7 +159,7 @@ namespace SPHDissipation {
 
     static int count(const double *type) { return (type[CVIB] > 0.0) ? 1 : 0; }
 
-    // of a type of the heat capacity cv per mass without vibrations, in a time step dt
+    // Return the numbers of a type with the heat capacity cv per mass, without vibrations, for a time step dt
     static Vibration process(const double *type, int, double, double cv, double dt)
     {
       const double cvib = type[CVIB], tau_v = type[TAU];
@@ -172,14 +172,14 @@ namespace SPHDissipation {
     {
       return site.mass() * site.own.heat_capacity * site.state();
     }
-    // T times the rate of entropy, m cvib/tau_v (T - T_v)^2/T_v
+    // Return T times the rate of entropy, per mass: cvib/tau_v (T - T_v)^2/T_v
     template <class Site> SPH_FUNCTION static double heat(const Site &site)
     {
       if (!(site.state() > 0.0)) return 0.0;
       const double difference = site.rows.temperature(site.i) - site.state();
       return site.own.heat_capacity * site.own.rate * difference * difference / site.state();
     }
-    // in equilibrium with the rest of the heat
+    // Set T_v of a new particle in equilibrium with the rest of the heat
     template <class Site> SPH_FUNCTION static void begin(const Site &site, double temperature)
     {
       if (site.state() > 0.0) return;

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Shear viscosity: drag between the velocities of two particles.  The forms of the shear force are sums of
-// two terms, one along e and one along u, with the coefficients that shear_factor() gives.
+// Shear viscosity: drag between two particles, by the difference of their velocities.  The forms of the shear force are sums
+// of two terms, along e and along u, with the coefficients of shear_factor().
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -35,9 +35,9 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 // -a F V_i V_j (u.r) r
 typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
 
-// AlongR or, with FR2, AlongRBySquare with the viscosities of the particles: their arithmetic mean within a fluid, for which there
-// is a dissipation function, and the harmonic one between two fluids; that of the fluid next to a boundary particle, which has none
-// ONE_FLUID: there is no pair of two
+// AlongR or, with FR2, AlongRBySquare, with mu of both particles: the arithmetic mean within a fluid, for which a
+// dissipation function exists; the harmonic mean between two fluids; next to a boundary (mu < 0) mu of the fluid.
+// ONE_FLUID: no pair has two fluids
 template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;
@@ -74,16 +74,17 @@ namespace SPHDissipation {
 
   // mg:      f_i = -2 (n+2) mu sum_j F (u.e) e V_i V_j        P2 (41)
   // mg/fr:   f_i = -eta sum_j F r (u.e) e V_i V_j             P1 (15), (49)
-  // mg/fr2:  f_i = -2 n mu/<r^2> sum_j F (u.r) r V_i V_j      a weight that is smooth at r = 0: sums over lattices and rows
-  //                                                           of particles are nearly the integrals; see the theory page
+  // mg/fr2:  f_i = -2 n mu/<r^2> sum_j F (u.r) r V_i V_j      a weight that is smooth at r = 0: sums over lattices and
+  //                                                           rows are nearly the integrals; see the theory page
   // morris:  f_i = -2 mu sum_j F u V_i V_j                    Laplacian of the velocity
   // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
   //                                                           026705 (2003), with bulk term zero
   // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
-  // micropolar mg/fr2: the term with zeta1 is that of mg/fr2 where zeta1 > 0.  A negative one keeps the weight of zeta2, with
+  // micropolar mg/fr2: the term with zeta1 is that of mg/fr2 where zeta1 > 0.  A negative zeta1 keeps the weight of zeta2,
+  // for
   //                    which it is admissible.
 
-  // prefactor of the shear term per unit mu, in dimension n; mean_radius, mean_square = integrals of r W and r^2 W
+  // Return the prefactor of the shear term per mu, in dimension n; mean_radius, mean_square = integrals of r W and r^2 W
   inline double shear_factor(Shear shear, int n, double mean_radius, double mean_square)
   {
     switch (shear) {
@@ -109,9 +110,8 @@ namespace SPHDissipation {
     return shear_factor(fluid.shear, fluid.dim, fluid.mean_radius, fluid.mean_square);
   }
 
-  // bulk viscosity of the shear term: lambda = mu for mg and lambda = -mu for Morris, kappa =
-  // lambda + 2 mu/n; P1 (66).  The form of Espanol and Revenga is the sum of mg with mu/(n+3) and
-  // Morris with mu (n+2)/(n+3).
+  // Return the bulk viscosity of the shear term, kappa = lambda + 2 mu/n, with lambda = mu for mg and lambda = -mu for
+  // morris; P1 (66).  The form espanol is the sum of mg with mu/(n+3) and morris with mu (n+2)/(n+3).
   inline double intrinsic_kappa(Shear shear, int n, double mu)
   {
     switch (shear) {
@@ -130,8 +130,8 @@ namespace SPHDissipation {
     }
   }
 
-  // Largest eigenvalues of the friction matrix on lattices of 1, 2, 3 dimensions, for all kernels, in order
-  // and in disorder, and next to walls (Morris), in units of nu/h^2; surface: next to those with surface_factor()
+  // Return the largest eigenvalue of the friction matrix, in units of nu/h^2, for all kernels, on lattices of 1, 2, 3
+  // dimensions and in disorder, and next to walls (morris); surface: next to walls with surface_factor()
   inline double shear_rate(Shear shear, bool surface)
   {
     switch (shear) {
@@ -150,7 +150,7 @@ namespace SPHDissipation {
     }
   }
 
-  // rate of two terms, along e and along the difference itself, which act on what has this inertia per volume
+  // Return the rate of two terms, along e and along u, for an inertia per volume
   inline double rate_of_terms(int n, double hsq, double inertia, double along_r, double along_u,
                               bool surface = false)
   {
@@ -160,7 +160,7 @@ namespace SPHDissipation {
         (inertia * hsq);
   }
 
-  // zeta2 of a micropolar fluid, whose zeta1 is along_r: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with
+  // Return zeta2 of a micropolar fluid; along_r is zeta1: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with
   // the bulk term
   inline double slip_coefficient(const PairFluid &fluid)
   {
@@ -169,7 +169,7 @@ namespace SPHDissipation {
 
   struct ShearChannel : BaseChannel {
     static constexpr const char *NAME = "shear";
-    enum { ALONG_R, BY_SQUARE, ALONG_U, ALIKE, UNLIKE, NPAIR };    // the last two: per mu
+    enum { ALONG_R, BY_SQUARE, ALONG_U, ALIKE, UNLIKE, NPAIR };    // ALIKE, UNLIKE: per mu
     static constexpr int NTYPE = Rheology::NUMBER;
     static constexpr std::array<TypeKeyword, 6> TYPE_KEYWORDS = {
         {{"power", 3, 0, RHEOLOGY},

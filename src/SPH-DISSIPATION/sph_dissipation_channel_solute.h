@@ -49,7 +49,7 @@ namespace SPHDissipation {
     {
       return (type[D] >= 0.0 && std::isfinite(type[D])) ? nullptr : "solute must be >= 0";
     }
-    // of the form morris, with rho0 D/rho instead of mu/rho
+    // Return the rate of the form morris, with rho0 D/rho instead of mu/rho
     static double rate(const PairFluid &, const OwnWords &words, const double *,
                        const PairInertia &inertia)
     {

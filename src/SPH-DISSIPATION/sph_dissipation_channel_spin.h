@@ -20,7 +20,7 @@ ChannelClass(SpinChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
+// Torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
 struct SpinDiffusion : PairTerm<SpinChannel, SpinChannel::XI1, SpinChannel::XI2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
@@ -46,7 +46,7 @@ namespace SPHDissipation {
     static constexpr bool SPINS = true;
     enum { XI1, XI2, NPAIR };
 
-    // inverse of gamma1 = xi1/10 + xi2/2, gamma2 = xi1/10 - xi2/2 (n = 3), gamma1 = -gamma2 = xi2/2 (n = 2)
+    // Solve gamma1 = xi1/10 + xi2/2, gamma2 = xi1/10 - xi2/2 (n = 3), gamma1 = -gamma2 = xi2/2 (n = 2)
     static void set_coefficients(const PairFluid &fluid, const OwnWords &, double *own)
     {
       const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];
@@ -65,7 +65,7 @@ namespace SPHDissipation {
       add("xi2", own[XI2]);
     }
 
-    // xi1 + xi2 >= 0, too; one spin viscosity in two dimensions
+    // Check xi2 >= 0 and xi1 + xi2 >= 0; two dimensions have one spin viscosity
     static const char *inadmissible(const PairFluid &fluid, const OwnWords &)
     {
       const double gamma1 = fluid.viscosity[GAMMA1], gamma2 = fluid.viscosity[GAMMA2];

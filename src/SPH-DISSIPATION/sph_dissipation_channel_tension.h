@@ -48,7 +48,7 @@ namespace SPHDissipation {
       const double sigma = words.unlike[SIGMA];
       return (sigma >= 0.0 && std::isfinite(sigma)) ? nullptr : "tension must be >= 0";
     }
-    // capillary waves, J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
+    // Return the step of capillary waves, J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
     static double wave_step(const OwnWords &words, const PairInertia &inertia)
     {
       return capillary_step(inertia.rho, inertia.hsq, words.unlike[SIGMA]);

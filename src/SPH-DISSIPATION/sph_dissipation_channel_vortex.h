@@ -21,7 +21,7 @@ ChannelClass(VortexChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// -a F V_i V_j u* and half of its torque for each particle, the same on both: 1/2 a F V_i V_j r x u*, P3 (18)
+// Force -a F V_i V_j u*, and half of its torque on each particle, the same on both: 1/2 a F V_i V_j r x u*; P3 (18)
 struct Slip : PairTerm<VortexChannel, VortexChannel::ZETA2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)
@@ -45,7 +45,7 @@ struct Slip : PairTerm<VortexChannel, VortexChannel::ZETA2> {
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // relaxation of the spin to the vorticity, in units of zeta2/(rho I)
+  // Rate at which the spin relaxes to half the vorticity, in units of zeta2/(rho I)
   constexpr double VORTEX_RATE = 1.0;
 
   struct VortexChannel : BaseChannel {
@@ -71,7 +71,7 @@ namespace SPHDissipation {
     {
       return -fluid.viscosity[MU_R];
     }
-    // along_r + zeta2 >= 0, too
+    // Check zeta2 >= 0 and zeta1 + zeta2 >= 0
     static const char *inadmissible(const PairFluid &fluid, const OwnWords &)
     {
       const double mu_r = fluid.viscosity[MU_R];

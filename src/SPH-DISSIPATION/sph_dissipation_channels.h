@@ -11,9 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The dissipative channels of a fluid.  Its dissipation function is a sum of terms, and a term is a
-// rate, a coefficient, and a weight.  Each channel has them in its own header; all other code goes
-// through the lists of channels in this file.
+// The dissipative channels of a fluid.  The dissipation function is a sum of terms; a term has a rate, a coefficient, and a
+// weight.  Each channel defines its terms in its own header; all other code uses the lists of channels in this file.
 //
 // mu = shear viscosity, kappa = bulk viscosity, stress = 2 mu dev(E) + kappa tr(E), both in
 // pressure * time (in dimension n = 1 kappa is the longitudinal viscosity).
@@ -29,15 +28,15 @@
 // P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
 //      (2021)
 //
-// The headers of the channels have parts, as the headers of LAMMPS's styles.  With CHANNEL_CLASS: their place in the
-// list.  With CHANNEL_TERMS: the terms of a pair, for the loops, which include them in more than one namespace.  With
-// OPTIONAL_TERMS: those of them that any form of the shear force may have.  Without: all else.  No LAMMPS include.
+// The headers of the channels have parts, as the headers of LAMMPS's styles.  With CHANNEL_CLASS: the line in the list.
+// With CHANNEL_TERMS: the terms of a pair, for the loops, which include them in more than one namespace.  With
+// OPTIONAL_TERMS: the names of the terms that any form of the shear force may have.  Without: all else.  No LAMMPS include.
 
 #ifdef CHANNEL_TERMS
 
 #include "sph_dissipation_channel_list.h"
 
-// terms of pairs, as the loops have them
+// A form of the pair force: a list of terms, for the loops
 
 template <class... Term> struct Form {
   static constexpr bool CENTRAL = (Term::CENTRAL || ...);
@@ -47,7 +46,7 @@ template <class... Term> struct Form {
   static constexpr bool SPINS = (Term::SPINS || ...);
   static constexpr bool BY_RATE = (Term::BY_RATE || ...);
 
-  // has heat of this channel; the last one of terms with spins
+  // Return whether a term heats this channel; bits of all heated channels; the last channel of a term with spins
   static SPH_INLINE constexpr bool heats(int channel)
   {
     return ((channel == Term::CHANNEL) || ...);
@@ -78,8 +77,8 @@ template <class... Term> struct Form {
   }
 };
 
-// Forms with all optional terms, for the runs that use any of them.  The form espanol, whose terms are all the others of
-// fluids without spins, has no loops of its own.
+// Forms with all optional terms, for runs that use any of them, and for the form espanol, which has all other terms of
+// fluids without spins.
 #undef CHANNEL_TERMS
 #define OPTIONAL_TERMS
 #define OptionalTerm(One) , One
@@ -95,7 +94,7 @@ using FullSpinForm = Form<AlongR<false>, AlongRBySquare, Slip, SpinDiffusion
 #undef OPTIONAL_TERMS
 #define CHANNEL_TERMS
 
-// call function(Form()) of the form with these terms
+// Call function(Form()) for the form with these terms
 
 template <class Function> void with_form(const Terms &terms, Function &&function)
 {
@@ -150,21 +149,20 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Name by which another command may vary a coefficient of a type, of this number in its channel.  In the second and
-  // further groups of a keyword the name has the number of the group behind it.
+  // Name by which another command may vary a coefficient of a type; coefficient = its number in the channel.  In the second
+  // and later groups of a keyword, the number of the group follows the name.
   struct TypeVariable {
     const char *name;
     int coefficient;
   };
 
-  // Friction of a pair as a tensor, in units of F V_i V_j (mg/fr: F r V_i V_j): on the velocity of slip and
-  // on the difference of the spins, along e and across it; of terms with BY_SQUARE, along e in units of
-  // F r^2 V_i V_j.  The noise is its root.
+  // Friction tensor of a pair, in units of F V_i V_j (mg/fr: F r V_i V_j): for the velocity of slip and the difference of
+  // the spins, along and across e; for terms with BY_SQUARE, along e in units of F r^2 V_i V_j.  The noise is its root.
   struct PairFriction {
     double along, across, spin_along, spin_across, along_by_square;
   };
 
-  // what the coefficients of a pair of types follow from
+  // Input of the coefficients of a pair of types
   struct PairFluid {
     Shear shear = Shear(0);
     int dim = 0;                                                   // of the kernel
@@ -172,78 +170,76 @@ namespace SPHDissipation {
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
-    // if viscosities of any type are not constant: the largest mu, the largest amount of zeta, and whether both
-    // types are one fluid
+    // if mu of any type is not constant: both types are one fluid; the largest mu, and the largest |zeta|
     bool by_rate = false, alike = false;
     double largest_mu = 0.0, largest_zeta = 0.0;
   };
 
-  // What pair_coeff has set for one channel: coefficients of a type, or the larger ones of two types, and those of
-  // two unlike types
+  // Coefficients from pair_coeff for one channel: of a type, or the larger ones of two types; of two unlike types
   struct OwnWords {
     const double *type, *unlike;
-    double flow = 0.0;    // mean coefficient of its flow
+    double flow = 0.0;    // mean coefficient of the flow of the channel
   };
 
-  // inertia of the motion that a channel damps, for its fastest rate
+  // Inertia of the motion that a channel damps, for its fastest rate
   struct PairInertia {
-    double hsq = 0.0;    // of the smoothing length for stability, see stability_length_squared()
-    double rho = 0.0;    // of velocities
-    double rho_inertia = 0.0;    // of spins
+    double hsq = 0.0;            // square of the stability length, see stability_length_squared()
+    double rho = 0.0;            // density: inertia of velocities
+    double rho_inertia = 0.0;    // density times moment of inertia per mass: inertia of spins
     bool surface = false;        // next to surfaces with surface_factor()
   };
 
-  // drag of a single particle against a stream, force -b V (u - stream)
+  // Drag of a single particle against a stream, force -b V (u - stream)
   struct Drag {
     double b = 0.0;    // pressure * time / length^2
     double stream[3] = {0.0, 0.0, 0.0};
   };
 
-  // Defaults for what a channel does not have
+  // Defaults of the members of a channel
   struct BaseChannel {
-    static constexpr bool SPINS = false;    // it needs particles that spin
-    // it stores energy: it has no rate of its own, but belongs to the sound
+    static constexpr bool SPINS = false;    // needs particles that spin
+    // stores energy: has no rate of its own, but belongs to the sound
     static constexpr bool ELASTIC = false;
-    // it turns motion into heat, which compute sph/dissipation gives out
+    // turns motion into heat, a number of compute sph/dissipation
     static constexpr bool OF_MOTION = true;
-    // its coefficients of pairs may all be 0: then the loops do without its terms, and the table without its columns
+    // if all its coefficients of pairs are 0, the loops leave out its terms, and the table its columns
     static constexpr bool OPTIONAL = false;
-    // it has an energy of pairs of unlike types, and waves: pair_energy(), wave_step()
+    // has an energy of pairs of unlike types, and waves: pair_energy(), wave_step()
     static constexpr bool PAIR_ENERGY = false;
-    // Words of pair_coeff: keywords of a type with NTYPE coefficients in all, those that other commands may vary, and
-    // keywords of unlike types, each with one number that is 0 if it is not given and may be varied by the same name
+    // Words of pair_coeff: keywords of a type, with NTYPE coefficients in all; names by which other commands may vary them;
+    // keywords of unlike types, each with one number, 0 if not given, which other commands may vary by the same name
     static constexpr int NTYPE = 0;
     static constexpr std::array<TypeKeyword, 0> TYPE_KEYWORDS = {};
     static constexpr std::array<TypeVariable, 0> TYPE_VARIABLES = {};
     static constexpr std::array<const char *, 0> UNLIKE_KEYWORDS = {};
-    // the inequality that the coefficients of a type in a box of this dimension violate, or those of a pair of
-    // types, or nullptr; what is ignored of the coefficients of a type, or nullptr
+    // Return the inequality that the coefficients of a type, in a box of this dimension, or of a pair of types violate, or
+    // nullptr; return the name of ignored coefficients of a type, or nullptr
     static const char *inadmissible_type(const double *, int) { return nullptr; }
     static const char *inadmissible(const PairFluid &, const OwnWords &) { return nullptr; }
     static const char *ignored(const double *) { return nullptr; }
-    // Number of the coefficients of its terms for a pair of types; what they are, and the same as a tensor, for the
-    // noise.  own = these coefficients, here and below
+    // Number of the coefficients of its terms for a pair of types; set these coefficients, own; add their friction tensor,
+    // for the noise
     enum { NPAIR };
     static void set_coefficients(const PairFluid &, const OwnWords &, double *) {}
     SPH_FUNCTION static void add_friction(const double *, PairFriction &) {}
-    // call add(name, value) for each column of coefficients in the table of the log
+    // Call add(name, value) for each column of coefficients in the table of the log
     template <class Add>
     static void add_columns(const PairFluid &, const OwnWords &, const double *, Add &&)
     {
     }
-    // bulk viscosity that it brings with it
+    // Return the bulk viscosity of its pair terms
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
-    // rate of its fastest mode, 1/time
+    // Return the rate of its fastest mode, 1/time
     static double rate(const PairFluid &, const OwnWords &, const double *, const PairInertia &)
     {
       return 0.0;
     }
 
-    // a of the energy of a pair, a w_i w_j W(r) with the W of PairEnergyKernel; the largest stable time step
+    // Return a of the energy of a pair, a w_i w_j W(r) with W of PairEnergyKernel; return its largest stable time step
     static double pair_energy(const PairFluid &, const OwnWords &) { return 0.0; }
     static double wave_step(const OwnWords &, const PairInertia &) { return UNLIMITED_STEP; }
 
-    // of single particles with these coefficients of their type: force, heat, and noise follow from it
+    // Return the drag of single particles with these coefficients of their type, for force, heat, and noise
     SPH_FUNCTION static Drag drag(const double *) { return {}; }
   };
 
@@ -255,10 +251,10 @@ namespace SPHDissipation {
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // The list of the channels.  Each of them has a NAME, of its time step in the table of the log, and the members of
-  // BaseChannel; its terms, in the other part of its header, derive from PairTerm.
+  // The list of the channels.  Each channel has a NAME, the title of its time step in the table of the log, and the members
+  // of BaseChannel; its terms, in the other part of its header, derive from PairTerm.
   template <class Base, class... One> struct ChannelList {
-    // sum of these numbers of the channels before one of them
+    // Return the sum of number[k] over the channels before Channel
     template <class Channel>
     SPH_FUNCTION static constexpr int sum_before(const int (&number)[sizeof...(One)])
     {
@@ -268,14 +264,13 @@ namespace SPHDissipation {
       return sum;
     }
 
-    // those that turn motion into heat: how many there are, and the place of a channel among them
+    // Number of channels that turn motion into heat; place of a channel among them
     static constexpr int NUMBER = ((One::OF_MOTION ? 1 : 0) + ...);
     template <class Channel> SPH_FUNCTION static constexpr int place()
     {
       return sum_before<Channel>({One::OF_MOTION...});
     }
-    // coefficients of the terms of a pair of types, coefficients of a type, and of unlike types: how many there are, and
-    // the first one of a channel
+    // Numbers of coefficients of pairs of types, of types, and of unlike types; first coefficient of a channel among them
     static constexpr int NPAIR = (One::NPAIR + ...), NTYPE = (One::NTYPE + ...);
     static constexpr int NUNLIKE = (static_cast<int>(One::UNLIKE_KEYWORDS.size()) + ...);
     template <class Channel> SPH_FUNCTION static constexpr int first()
@@ -295,21 +290,21 @@ namespace SPHDissipation {
     {
       ((One::SPINS && !spins ? void() : function(One())), ...);
     }
-    // friction of a pair of types with these coefficients as a tensor
+    // Return the friction tensor of a pair of types with these coefficients
     SPH_FUNCTION static PairFriction friction(bool spins, const double *coeff)
     {
       PairFriction sum = {};
       ((One::SPINS && !spins ? void() : One::add_friction(coeff + first<One>(), sum)), ...);
       return sum;
     }
-    // sum of the coefficients of drag; type = coefficients of a type, of all channels
+    // Return the sum of the coefficients of drag; type = coefficients of a type, of all channels
     SPH_FUNCTION static double drag(const double *type)
     {
       return (One::drag(type + first_of_type<One>()).b + ...);
     }
 
-    // add the drag of a particle of volume vol and velocity u to its force and, by channel, to its heat, energy
-    // per time; linear: relative to rest instead of the stream
+    // Add the drag of a particle of volume vol and velocity u to its force and, by channel, to its heat per time; linear:
+    // relative to rest instead of the stream
     SPH_FUNCTION static void add_drag(const double *type, double vol, const double *u, bool linear,
                                       double *force, double *heat)
     {
@@ -336,11 +331,11 @@ namespace SPHDissipation {
   using Channels = ChannelList<BaseChannel
 #include "sph_dissipation_channel_list.h"
                                >;
-  // those with a state
+  // the channels with a state
   using States = ListOf<BaseState, StateList<>
 #include "sph_dissipation_channel_list.h"
                         >::type;
-  // those with a flow
+  // the channels with a flow
   using Flows = ListOf<BaseFlow, FlowList<>
 #include "sph_dissipation_channel_list.h"
                        >::type;
@@ -348,9 +343,9 @@ namespace SPHDissipation {
 #undef CHANNEL_CLASS
   // clang-format on
 
-  constexpr int NCHANNEL = Channels::NUMBER;    // of those that turn motion into heat
+  constexpr int NCHANNEL = Channels::NUMBER;    // channels that turn motion into heat
 
-  // place of the heat of the bulk term, which no pair has
+  // Place of the heat of the bulk term, which is no term of pairs
 
   constexpr int BULK_HEAT = Channels::place<BulkChannel>();
 
@@ -360,17 +355,17 @@ namespace SPHDissipation {
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
   //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
-  // with F r instead of F before along_r for mg/fr, a term F r^2 V_i V_j by_square (e.u) e for mg/fr2, and those of
-  // optional terms, which are in their headers
+  // with F r instead of F before along_r for mg/fr, a term F r^2 V_i V_j by_square (e.u) e for mg/fr2, and the coefficients
+  // of optional terms, see their headers
   struct PairCoeff {
     double a[Channels::NPAIR];
 
-    // those of a channel
+    // Return the coefficients of a channel
     template <class Channel> const double *of() const { return a + Channels::first<Channel>(); }
     template <class Channel> double *of() { return a + Channels::first<Channel>(); }
   };
 
-  // coefficients of a type by keyword, one channel after the other
+  // Coefficients of a type by keyword, one channel after the other
   struct TypeCoeffs {
     double a[Channels::NTYPE] = {};
 
@@ -380,7 +375,7 @@ namespace SPHDissipation {
       std::copy_n(all.begin(), Channels::NTYPE, a);
     }
 
-    // those of a channel
+    // Return the first place, and the coefficients, of a channel
     template <class Channel> static constexpr int first_of()
     {
       return Channels::first_of_type<Channel>();
@@ -392,13 +387,13 @@ namespace SPHDissipation {
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
   };
 
-  // a pair of types with what pair_coeff has set for all channels
+  // A pair of types with its coefficients from pair_coeff for all channels
   struct TypePair : PairFluid {
     TypeCoeffs type;    // the larger ones of both types
     double unlike[Channels::NUNLIKE + 1] = {};
     double flow[Flows::NUMBER] = {};    // mean of the types
 
-    // for a channel
+    // Return the coefficients for a channel
     template <class Channel> OwnWords words() const
     {
       double own = 0.0;
@@ -407,7 +402,7 @@ namespace SPHDissipation {
     }
   };
 
-  // keywords of the coefficients of a type, of all channels
+  // Return the keywords of the coefficients of a type, of all channels
   inline std::vector<TypeKeyword> type_keywords()
   {
     std::vector<TypeKeyword> all;
@@ -422,8 +417,8 @@ namespace SPHDissipation {
     return all;
   }
 
-  // Names by which other commands may vary coefficients of a type, with the numbers of these in TypeCoeffs, in the
-  // order of the numbers of the groups
+  // Return the names by which other commands may vary coefficients of a type, with their places in TypeCoeffs; of groups in
+  // the order of their numbers
   inline std::vector<std::pair<std::string, int>> type_variables()
   {
     std::vector<std::pair<std::string, int>> all;
@@ -443,7 +438,7 @@ namespace SPHDissipation {
     return all;
   }
 
-  // keywords of unlike types with their numbers in TypePair::unlike
+  // Return the keywords of unlike types with their places in TypePair::unlike
   inline std::vector<std::pair<std::string, int>> unlike_keywords(bool spins)
   {
     std::vector<std::pair<std::string, int>> all;
@@ -454,7 +449,7 @@ namespace SPHDissipation {
     return all;
   }
 
-  // whether these coefficients have any of the optional terms: the name of their channel, or nullptr
+  // Return the name of an optional channel with a coefficient that is not 0, or nullptr
   inline const char *optional_channel(const PairCoeff &coeff)
   {
     const char *name = nullptr;
@@ -475,7 +470,7 @@ namespace SPHDissipation {
     });
     return coeff;
   }
-  // a of the energy of a pair, sum of the channels
+  // Return a of the energy of a pair, the sum over the channels
   inline double pair_energy(const TypePair &pair)
   {
     double sum = 0.0;
@@ -485,7 +480,7 @@ namespace SPHDissipation {
     return sum;
   }
 
-  // prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
+  // Return the prefactor of (u.e)^2 in the dissipation of a pair at distance r, in units of F V_i V_j
   SPH_FUNCTION double central_weight(Shear shear, const PairCoeff &coeff, double r)
   {
     const PairFriction friction = Channels::friction(has_spins(shear), coeff.a);
@@ -493,7 +488,7 @@ namespace SPHDissipation {
     return along + friction.along_by_square * r * r;
   }
 
-  // bulk viscosity of the pair terms; P1 (66)
+  // Return the bulk viscosity of the pair terms; P1 (66)
   inline double intrinsic_kappa(const PairFluid &fluid)
   {
     double kappa = 0.0;
@@ -503,7 +498,7 @@ namespace SPHDissipation {
     return kappa;
   }
 
-  // the inequality that coefficients by keyword violate in a box of dimension dim, or nullptr
+  // Return the inequality that coefficients by keyword violate in a box of dimension dim, or nullptr
   inline const char *inadmissible(const TypeCoeffs &type, int dim)
   {
     const char *violated = nullptr;
@@ -513,7 +508,7 @@ namespace SPHDissipation {
     return violated;
   }
 
-  // what is ignored of the coefficients of a type by keyword: call report(what)
+  // Call report(what) for each ignored coefficient of a type
   template <class Report> void report_ignored(const TypeCoeffs &type, Report &&report)
   {
     Channels::visit(true, [&](auto channel) {
@@ -521,7 +516,7 @@ namespace SPHDissipation {
     });
   }
 
-  // the inequality that a pair of types violates, or nullptr if the fluid dissipates
+  // Return the inequality that a pair of types violates, or nullptr if the fluid dissipates
   inline const char *inadmissible(const TypePair &pair)
   {
     const char *violated = nullptr;

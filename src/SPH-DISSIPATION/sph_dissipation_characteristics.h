@@ -24,14 +24,14 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // amplitude of the wave that leaves; pressure units
+  // Return the amplitude J of the wave that leaves, a pressure
 
   inline double outgoing_wave(double impedance, double u, double p)
   {
     return impedance * u + p;
   }
 
-  // deviations of velocity and pressure where there is only that wave
+  // Return the deviations of velocity and pressure where only this wave exists
 
   inline double wave_velocity(double impedance, double wave)
   {

@@ -55,7 +55,7 @@ std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool
 }
 
 /* ----------------------------------------------------------------------
-   without IDs, the first one of the first rank that has any
+   Find the particle with the lowest ID; without IDs, the first one on the first rank that has any.
 ------------------------------------------------------------------------- */
 
 std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong,
@@ -177,7 +177,7 @@ void FluidChecks::styles() const
                "use one with all types",
                style);
 
-  // other atom styles sum drho of ghost atoms, which here has been communicated already
+  // other atom styles sum drho of ghost atoms, which this pair style has communicated already
 
   for (const auto &other : utils::split_words(atom->get_style()))
     if (other == "sph" || other == "rheo" || other == "rheo/thermal" || other == "mdpd")
@@ -236,7 +236,7 @@ void FluidChecks::noise() const
 }
 
 /* ----------------------------------------------------------------------
-   dim 1: the particles are on a line along x or y, whose periodic images must not interact
+   Check, for dim 1, that the particles are on a line along x or y, and that periodic images of the line do not interact.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::line_of_particles(double support) const
@@ -321,7 +321,7 @@ std::set<Kind> SPHDissipation::all_kinds(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether there can be pairs of two kinds, by the rules of NPair.
+   Return whether there can be pairs of two kinds, by the rules of NPair.
 ------------------------------------------------------------------------- */
 
 bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b)
@@ -344,13 +344,13 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 }
 
 /* ----------------------------------------------------------------------
-   also those that another fix moves, as the particles of a rigid body: their densities need all neighbors
+   Check also particles that another fix moves, as those of a rigid body: their densities need all neighbors.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::fluid_lists() const
 {
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
-  int others = 0;    // which have checks of their own
+  int others = 0;    // groups with checks of their own
   for (const auto &name : {"^sph/wall", "^sph/open"})
     for (const auto &ifix : modify->get_fix_by_style(name)) others |= ifix->groupbit;
 
@@ -390,7 +390,7 @@ void FluidChecks::room() const
 
 void FluidChecks::state_times() const
 {
-  constexpr double SHORT = 1.0e-3;    // over the time step
+  constexpr double SHORT = 1.0e-3;    // time over the time step
   if (comm->me != 0) return;
   for (int i = 1; i <= atom->ntypes; i++) {
     if (model.coeffs[i].other) continue;
@@ -456,7 +456,7 @@ void FluidChecks::masses() const
 }
 
 /* ----------------------------------------------------------------------
-   Not what a command has set, of any particle.  Between two times the diffusion changes the offsets of densities.
+   Leave out states that a command has set for any particle.  Between two times, diffusion changes the offsets of densities.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::kept_states(const Changes &changes, bool densities_follow) const
@@ -635,7 +635,7 @@ void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_
 }
 
 /* ----------------------------------------------------------------------
-   as far as data files have their places; with newton off, the owners of both particles have a pair
+   Count pairs in the same place, to the digits of data files; with newton off, the owners of both particles have a pair.
 ------------------------------------------------------------------------- */
 
 bigint FluidChecks::places(const Engine &engine, double support, bigint before) const
@@ -664,8 +664,8 @@ bigint FluidChecks::places(const Engine &engine, double support, bigint before) 
 }
 
 /* ----------------------------------------------------------------------
-   single particles may be alone, but each particle in a fluid has more than two neighbors along
-   each axis
+   Warn of too few neighbors: single particles may be alone, but a particle in a fluid has more than two neighbors along each
+   axis.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::neighbors(const Engine &engine, int boundary_bits, int dim, double support) const
@@ -674,7 +674,7 @@ void FluidChecks::neighbors(const Engine &engine, int boundary_bits, int dim, do
     return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
   };
 
-  // a pair is known to the owner of one of its particles, or to both with newton off
+  // the owner of one of the particles has the pair; with newton off, the owners of both
 
   bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
   for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);

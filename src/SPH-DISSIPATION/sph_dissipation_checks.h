@@ -31,37 +31,37 @@ namespace SPHDissipation {
   class Engine;
   class FluidModel;
 
-  // Particles alike in all that decides whether they have pairs: type and bits of groups
+  // Kind of a particle, which decides about its pairs: type and bits of groups
 
   using Kind = std::pair<int, int>;
-  std::set<Kind> all_kinds(LAMMPS *);    // those of the particles of all ranks
-  bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // pairs of two kinds
+  std::set<Kind> all_kinds(LAMMPS *);    // kinds of the particles of all ranks
+  bool in_neighbor_lists(LAMMPS *, const Kind &, const Kind &);    // have pairs of two kinds
 
-  // the first of the particles of all ranks for which wrong(i) holds, by its ID if particles have
-  // one: "particle 17"; empty if there is none; and, if asked for, a value of it
+  // Return the name of the first particle of all ranks with wrong(i), "particle 17" by its ID, if it has one; empty without
+  // such a particle; found = value(i) of this particle
 
   std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong);
   std::string first_particle(LAMMPS *, const std::function<bool(int)> &wrong,
                              const std::function<double(int)> &value, double &found);
 
-  // how many there are
+  // Return the number of particles of all ranks with counts(i)
 
   bigint count_particles(LAMMPS *, const std::function<bool(int)> &counts);
 
-  // a fix that was defined after the last run was set up cannot take part in a run with pre no
+  // Stop if a fix was defined after the last run was set up: it cannot take part in a run with pre no
 
   void check_set_up(LAMMPS *, const Fix *, bool set_up);
 
-  // the data of a fix in a restart file begin with the number -format of its version
+  // Stop if the data of a fix in a restart file do not begin with -format, of the present version
 
   void check_format(LAMMPS *, const Fix *, double first, int format);
 
-  // the rerun command is executed: it reads positions and velocities of particles, and no more
+  // Return true in the rerun command, which reads only positions and velocities of particles
 
   bool is_rerun(LAMMPS *);
 
-  // What a particle fluid needs from the rest of the simulation.  Called by all ranks; errors name the
-  // pair style.
+  // Checks what a particle fluid needs from the rest of the simulation.  All ranks call the checks; errors name the pair
+  // style.
 
   class FluidChecks : protected Pointers {
    public:
@@ -70,61 +70,59 @@ namespace SPHDissipation {
     {
     }
 
-    // no state of the particles that rerun cannot read, where forces and energies depend on it
+    // Refuse rerun if forces or energies depend on states of the particles that rerun cannot read
     void rerun() const;
 
-    // atom style, integrator, units, special bonds; no other pair style that cannot be there
+    // Check atom style, integrator, units, special bonds; refuse other pair and atom styles that do not fit
     void styles() const;
 
-    // no pairs of fluid particles of one type are excluded
+    // Check that pairs of fluid particles of one type are not excluded
     void fluid_lists() const;
 
-    // what thermal noise needs: IDs of particles, a constant time step > 0, no minimization
+    // Check what thermal noise needs: IDs of particles, a constant time step > 0, no minimization
     void noise() const;
 
-    // the support radius fits into the ghost cutoff and, for dim = 1, into the box around the line on
-    // which the particles lie
+    // Check that the support radius fits into the ghost cutoff and, for dim = 1, into the box around the line of particles
     void support(int dim, double support) const;
 
-    // spins of the fluid's particles are along z in 2d
+    // Check that spins of the fluid are along z in 2d
     void spins() const;
 
-    // warnings about a free surface that the settings press outward or turn
+    // Warn of settings that press a free surface outward, turn it, or let it gain energy
     void surface() const;
 
-    // particles have room for the states of their type; warning about times far below the time step
+    // Check that particles have room for the states of their type; warn of times far below the time step
     void room() const;
     void state_times() const;
 
-    // all masses of fluid and of integrated particles are positive; also during a run, for fixes that
-    // insert particles, whose mass is zero at first
+    // Check that masses of fluid and of integrated particles are positive; also during a run, for fixes that insert
+    // particles with a mass of zero
     void masses() const;
 
-    // warning about states that are those of other positions, masses, or types than the commands since the last run have
-    // given the particles; densities_follow: their sums change with the positions
+    // Warn of states that belong to positions, masses, or types from before commands since the last run; densities_follow:
+    // densities change with the positions
     void kept_states(const Changes &, bool densities_follow) const;
 
-    // warning about densities of owned particles that the positions have changed much, from what they were before
+    // Warn of densities of owned particles that differ much from those before, by the positions
     void followed_densities(const std::vector<double> &before) const;
 
-    // masses, velocities, spins, and all states are finite numbers, as LAMMPS wants of positions; densities and inertia are
-    // not negative
+    // Check that masses, velocities, spins, and all states are finite, as LAMMPS checks positions, and that densities and
+    // inertia are not negative
     void numbers() const;
 
-    // states per mass are not negative, but for the mark of a data file: before the first forces turn negative ones into others
+    // Check, before the first forces, that states per mass are not negative, but for the mark -1 of a data file
     void states() const;
 
-    // warning about particles of one fluid whose sizes differ, if their volumes are those of equal ones
+    // Warn of particles of one fluid with different masses, if volume number gives them equal volumes
     void sizes(int boundary_bits) const;
 
-    // warnings about a fluid that exerts no forces: no internal energy with an equation of state that
-    // needs it, no neighbors inside the support.  Particles with one of boundary_bits in their mask
-    // are no fluid.
+    // Warn of a fluid that exerts no forces: no internal energy with an equation of state that needs it, or no neighbors
+    // inside the support.  Particles with one of boundary_bits in their mask are not fluid.
     void energies(const std::function<double(int i)> &heat, int boundary_bits) const;
     void neighbors(const Engine &, int boundary_bits, int dim, double support) const;
 
-    // warning about pairs of particles, of fluid or of fluid and walls, in the same place; returns how many there are, of
-    // which before were told
+    // Warn of pairs of particles, of fluid or of fluid and walls, in the same place if they are more than before; return
+    // their number
     bigint places(const Engine &, double support, bigint before) const;
 
    private:

@@ -51,8 +51,8 @@ void SPHDissipation::begin_change(LAMMPS *lmp)
 }
 
 /* ----------------------------------------------------------------------
-   Fixes, computes, and variables set what they have of the new particle.  Not fix adapt: its values
-   are copied, and where it has none LAMMPS uses a pointer that was never set.
+   Copy a particle; fixes, computes, and variables set their values of the new one.  Not fix adapt: its values are copied,
+   and without values LAMMPS uses a pointer that was never set.
 ------------------------------------------------------------------------- */
 
 int SPHDissipation::create_copy(LAMMPS *lmp, int i, tagint id, const double *x)
@@ -105,7 +105,7 @@ void SPHDissipation::end_change_by(LAMMPS *lmp, bigint change)
 bool SPHDissipation::new_ids(LAMMPS *lmp, const std::vector<NewIDs> &mine, tagint &highest,
                              std::vector<tagint> &first)
 {
-  constexpr tagint HIGHEST = -1;    // in the place of a number: the highest ID of a processor
+  constexpr tagint HIGHEST = -1;    // instead of a number, marks the highest ID of a processor
   const Atom *const atom = lmp->atom;
   for (int i = 0; i < atom->nlocal; i++) highest = std::max(highest, atom->tag[i]);
   std::vector<tagint> flat = {highest, HIGHEST};

@@ -26,7 +26,7 @@ class LAMMPS;
 
 namespace SPHDissipation {
 
-  // Tell whether x is inside the boundaries of the box that are not periodic.
+  // Return whether x is inside the boundaries of the box that are not periodic.
 
   bool in_box(LAMMPS *, const double *x);
 
@@ -45,9 +45,9 @@ namespace SPHDissipation {
   // Remove an owned particle.  The last one takes its place.
   void remove_particle(LAMMPS *, int i);
 
-  // Find new IDs for particles, each so many in a row, in the order of their own IDs, which does
-  // not depend on the number of processors.  first = of the new IDs, highest = largest ID ever
-  // given, before and after.  False if there are not enough IDs.
+  // Find new IDs for particles, so many in a row for each, in the order of their own IDs, which does not depend on the
+  // number of processors.  first = first new ID of each, highest = largest ID ever given, before and after.  Return false if
+  // there are not enough IDs.
 
   using NewIDs = std::pair<tagint, tagint>;    // ID of a particle, number of new ones
   [[nodiscard]] bool new_ids(LAMMPS *, const std::vector<NewIDs> &mine, tagint &highest,

@@ -37,7 +37,7 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-static const Parameters NO_PARAMETERS;    // of an engine before its setup()
+static const Parameters NO_PARAMETERS;    // of an engine before setup()
 
 Engine::Engine(LAMMPS *lmp) :
     Pointers(lmp), flow(Flows::NUMBER), flow_rate(Flows::NUMBER), par(&NO_PARAMETERS),
@@ -102,8 +102,8 @@ void Engine::setup(const Parameters &parameters)
 }
 
 /* ----------------------------------------------------------------------
-   Long arrays in large pages, where Linux has to be asked for them: pairs read rows all over the arrays and add to them, and a
-   step takes 3 percent less time with fewer addresses to translate (64,000 particles).
+   Allocate a long array, on Linux in large pages: pairs access rows all over the arrays, and with fewer addresses to
+   translate a step takes 3 percent less time (64,000 particles).  Old contents are lost.
 ------------------------------------------------------------------------- */
 
 template <class T> static void renew(Memory *memory, T *&array, bigint n, const char *name)
@@ -137,14 +137,13 @@ void Engine::grow_atoms()
 }
 
 /* ----------------------------------------------------------------------
-   rows and pairs of each thread: about as many entries of the neighbor list for each.  Room for all of
-   them, each atom's filled up to a full block, and for each thread one more block and the indices that
-   pass 2 looks at ahead of the last one.
+   Give each thread rows with about equally many entries of the neighbor list.  Allocate room for all pairs, each row filled
+   up to full blocks, and for each thread one more block and the indices that pass 2 reads ahead.
 ------------------------------------------------------------------------- */
 
 void Engine::grow_pairs(NeighList *list, bool leaves_slopes)
 {
-  constexpr int PARTS = 256;    // of the rows of a thread: it gets whole ones
+  constexpr int PARTS = 256;    // per thread, of the rows; a thread gets whole parts
   if (list->inum > imax) {
     imax = list->inum;
     renew(memory, data.first, imax, "sph:first");
@@ -188,7 +187,7 @@ void Engine::grow_pairs(NeighList *list, bool leaves_slopes)
 }
 
 /* ----------------------------------------------------------------------
-   what the loops of one thread work on, its sums left out
+   Return the input of the loops of one thread, without its own sums.
 ------------------------------------------------------------------------- */
 
 LoopData Engine::part(int thread) const
@@ -203,7 +202,9 @@ LoopData Engine::part(int thread) const
   return part;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set the rows of atoms between the passes; with temp energy, internal energies are a copy.
+------------------------------------------------------------------------- */
 
 void Engine::set_rows()
 {
@@ -256,7 +257,7 @@ void Engine::forget_wall_energy()
 }
 
 /* ----------------------------------------------------------------------
-   energies that walls hold, in the order of the atoms now; atoms that were not here have none
+   Sort the energies of the walls into the present order of the atoms; new atoms get 0.
 ------------------------------------------------------------------------- */
 
 void Engine::follow_atoms() const
@@ -276,7 +277,8 @@ void Engine::follow_atoms() const
 }
 
 /* ----------------------------------------------------------------------
-   reference volumes of owned and ghost atoms; the first term of each sum, the particle itself
+   Set the reference volumes of owned and ghost atoms, and multiply the first term of each density, that of the particle
+   itself, by them.
 ------------------------------------------------------------------------- */
 
 void Engine::set_weights()
@@ -309,7 +311,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   grow_atoms();
   grow_pairs(list, leaves_slopes);
 
-  constexpr double FAR = 1.0e15;    // where spare particles are, outside of any support
+  constexpr double FAR = 1.0e15;    // place of spare particles, in support radii
   static constexpr double REST[3] = {0.0, 0.0, 0.0};
   double **x = atom->x;
   const int nlocal = atom->nlocal;
@@ -392,7 +394,7 @@ double Engine::slope_of(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   adds to density[]
+   Run a loop that adds to density[] on all threads.
 ------------------------------------------------------------------------- */
 
 void Engine::run_density(Loop loop)
@@ -484,7 +486,7 @@ void Engine::run_noise(NoiseLoop loop, const NoiseData &noise)
 }
 
 /* ----------------------------------------------------------------------
-   in whole blocks, each of one thread
+   Draw in whole blocks, each on one thread.
 ------------------------------------------------------------------------- */
 
 void Engine::draw_numbers(const NoiseData &noise, NoiseChannel channel, int n, int count,
@@ -497,7 +499,7 @@ void Engine::draw_numbers(const NoiseData &noise, NoiseChannel channel, int n, i
 }
 
 /* ----------------------------------------------------------------------
-   of the rows of a thread
+   Return room for the random numbers of the pairs of one particle, for the rows of a thread.
 ------------------------------------------------------------------------- */
 
 double *Engine::room_for_numbers(int thread, const LoopData &rows)

@@ -27,9 +27,9 @@
 #include <string>
 #include <vector>
 
-// GCC, Clang, and their descendants can compile single functions for other instruction sets than
-// the rest of LAMMPS.  NVIDIA's compilers define the macros of GCC, but cannot; MinGW's GCC does
-// not align the stack for their registers (GCC bug 54412).
+// GCC, Clang, and their descendants can compile single functions for other instruction sets than the rest of LAMMPS.
+// NVIDIA's compilers define the macros of GCC, but cannot do this; MinGW's GCC does not align the stack for the registers
+// (GCC bug 54412).
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__EDG__) && !defined(__NVCC__) &&         \
     !defined(__NVCOMPILER) && !defined(__PGI) && !(defined(__MINGW32__) && !defined(__clang__)) && \
@@ -42,7 +42,7 @@ class NeighList;
 
 namespace SPHDissipation {
 
-  // receives the force on i from j of each pair, for virials that are summed by pair
+  // Receives the force on i from j of each pair, for virials that are summed by pair
 
   class PairTally {
    public:
@@ -54,16 +54,15 @@ namespace SPHDissipation {
   struct ParticleRows;
   struct StateRows;
 
-  // Pairs are worked off in blocks of as many as a vector has doubles; this is the widest one.  The
-  // last block of a particle is filled up with spare particles, of which there are as many behind the
-  // owned and ghost ones.
+  // Loops run over pairs in blocks of as many as a vector has doubles, at most BLOCK.  Spare particles, BLOCK of them behind
+  // the owned and ghost ones, fill up the last block of a particle.
 
   constexpr int BLOCK = 8;
 
   static_assert(NEIGHMASK < (1u << 29), "offsets of all neighbors have 32 bits");
 
-  // Input, output and scratch space of the two loops.  Both run over a half neighbor list; pass 1
-  // leaves the pairs inside the support, and F of each, for pass 2.
+  // Input, output and scratch space of the two loops.  Pass 1 runs over a half neighbor list and leaves the pairs inside the
+  // support, and F of each, for pass 2.
 
   struct LoopData {
     int inum;
@@ -75,7 +74,7 @@ namespace SPHDissipation {
     const Spin *spin;            // owned and ghost (micropolar)
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
-    const double *viscosity;     // mu of each particle, if it is not constant
+    const double *viscosity;     // mu of each particle, if mu is not constant
     const Excess *excess;        // owned and ghost; nullptr: of no particle
     const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
@@ -85,19 +84,18 @@ namespace SPHDissipation {
 
     const Parameters *par;
 
-    // pairs of the ii-th atom: entries first[ii] ... first[ii] + count[ii] - 1; pass 1 begins with
-    // entry begin
+    // pairs of the ii-th atom of ilist: entries first[ii] ... first[ii] + count[ii] - 1; the first entry is begin
 
     bigint begin;
     bigint *first;
     int *count;
     Offset *neighbor;
-    double *slope;     // F, or nullptr: pass 2 computes it again
+    double *slope;     // F, or nullptr: pass 2 computes F again
     double *square;    // F (e.u)^2, if mu is not constant
 
     const NoiseData *noise;    // of pass 2 with noise
-    double *random;            // the same, for the numbers of the pairs of one particle
-    PairTally *tally;          // nullptr if nobody asks
+    double *random;            // room for the random numbers of the pairs of one particle
+    PairTally *tally;          // nullptr: none
   };
 
   typedef void (*Loop)(LoopData &);
@@ -105,10 +103,10 @@ namespace SPHDissipation {
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
   typedef void (*RateLoop)(const LoopData &, const double *vol, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
-  enum class DiffusionPart { SUMS, FLOW };    // for the gradient; with it
+  enum class DiffusionPart { SUMS, FLOW };    // sums for the gradient; flow, with the gradient
 
-  // Positions and indices of particles, sorted into cells; candidates for neighbors, relative to the corner of a cell.
-  // Both have room for a vector of 16 numbers behind the last entry
+  // Positions and indices of particles, sorted into cells; and of candidates for neighbors, relative to the corner of a
+  // cell.  Both have room for a vector of 16 numbers behind the last entry
 
   struct PlaceColumns {
     const double *x[3];
@@ -121,19 +119,19 @@ namespace SPHDissipation {
     int n;
   };
 
-  // Candidates around a place by the squares of their distances: below close, and from there on below bound; those below safe
-  // are within the reach for certain
+  // Bounds for the squares of the distances of candidates from a place: close ones are below close, far ones from there to
+  // bound; below safe, rounding errors cannot move a candidate out of the reach
 
   struct Reach {
     float close, safe, bound;
   };
   struct Found {
-    int *close, *far;    // their indices, to be written to
+    int *close, *far;    // indices of close and far candidates, written to
     int nclose, nfar;
     bool doubt;    // a far one is not safe
   };
 
-  // loops over the pairs of one thread of the fluid and boundary particles
+  // Loops over the pairs of fluid and boundary particles of one thread
 
   struct BoundaryRows;
   struct BoundarySumData;
@@ -141,34 +139,34 @@ namespace SPHDissipation {
   struct NearKernel;
   struct Surface;
   struct BoundaryLoops {
-    void (*pairs)(const LoopData &, BoundaryRows &);    // those inside the support
-    // add what they fill of the supports of NearKernel
+    void (*pairs)(const LoopData &, BoundaryRows &);    // finds the pairs inside the support
+    // add the parts of the NearKernel supports of fluid particles that boundary particles fill
     void (*filled)(const BoundaryRows &, const NearKernel *, double *filled);
-    // add the sums over the fluid, without and with spins
+    // add the sums over the fluid, without [0] and with [1] spins
     void (*sums[2])(const LoopData &, const BoundaryRows &, const BoundarySumData &);
     void (*heat_sums)(const LoopData &, const BoundaryRows &, const BoundaryHeatData &);
   };
 
-  // the loops compiled for one instruction set
+  // The loops compiled for one instruction set
 
   struct LoopSet {
     const char *name;
     bool computes_slopes;    // pass 2 can compute F again, without spins
-    // pass 1 leaves the neighbor of each pair inside the support; F, for other loops; F (e.u)^2, for the rates of shear
+    // pass 1: leaves the pairs inside the support; slopes: F of each; squares: F (e.u)^2 of each, for the rates of shear
     Loop (*density)(Kernel, Volume, bool slopes, bool squares);
     Loop (*rates)(Volume);
     RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
-    int (*channels)(const Terms &);    // bits of the channels that its terms heat
+    int (*channels)(const Terms &);    // bits of the channels that these terms heat
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     NoiseLoop (*shared_work)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
-    FlowLoop (*flow)(bool alike);    // the same coefficient of all particles with a volume
-    DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // of impedance
+    FlowLoop (*flow)(bool alike);    // alike: all particles with a volume have one coefficient
+    DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // alike: one impedance
     BoundaryLoops (*boundary)(Kernel);
-    // F (surface_factor() - less) of the pairs in some of the rows
+    // set slope = F (surface_factor() - less) of the pairs in some of the rows
     void (*surface_slopes)(const LoopData &, const BoundaryRows &, const std::vector<int> &some,
                            const Surface *, double less, double *slope);
     // take (x - corner) * scale
@@ -180,12 +178,12 @@ namespace SPHDissipation {
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
 
-  // Torque (micropolar), and heat, energy per time, of the channels of the terms of pairs, one row for each particle.  The
-  // heat of the first channel goes with the force, see ForceSum.
+  // Torque (micropolar) and heat per time, by channel, from the pairs: one row for each particle.  ForceSum has the heat of
+  // the first channel.
 
   struct ChannelSums {
     ChannelColumns columns = {false, 0};
-    int width = 0;    // numbers of a row
+    int width = 0;    // numbers in a row
     std::vector<double> rows;
 
     void set(const ChannelColumns &wanted)
@@ -196,7 +194,7 @@ namespace SPHDissipation {
     void resize(std::size_t n) { rows.resize(n * width); }
     double *torque(int i) { return &rows[(std::size_t) i * width]; }
     const double *torque(int i) const { return &rows[(std::size_t) i * width]; }
-    // by channel, added to heat[]; of all channels
+    // Add the heat by channel to heat[]; return the heat of all channels; without the first channel
     void add_heat(int i, double *heat) const
     {
       for (int c = 1; columns.bits >> c; c++)
@@ -212,8 +210,7 @@ namespace SPHDissipation {
     double memory_usage() const { return bytes(rows); }
   };
 
-  // Some of the pairs that pass 1 has found, in the form that pass 2 works off: begin(); for each
-  // row add_row(), add() its pairs, end_row()
+  // Some of the pairs that pass 1 has found, as input of pass 2: begin(); for each row add_row(), add() its pairs, end_row()
 
   class SurfacePairs;
 
@@ -225,7 +222,7 @@ namespace SPHDissipation {
     void end_row(int spare);    // fills up the last block
     double memory_usage() const { return bytes(rows, count, neighbor, first, slope); }
 
-    // function(i) for all particles of the pairs, for some of them several times, and spare ones
+    // Call function(i) for all particles of the pairs, for some of them several times, and for spare ones
     template <class Function> void visit(Function &&function) const
     {
       for (const int i : rows) function(i);
@@ -240,87 +237,86 @@ namespace SPHDissipation {
     std::vector<double> slope;
   };
 
-  // of one step: what the loops add to forces besides what the parameters say
+  // Input of pass 2 in one step, besides the parameters
   struct StepPlan {
     int not_fluid = 0;    // bits of groups whose particles have no drag: walls and open zones
     StepNoise noise = {};
   };
 
-  // Pair engine of the particle fluid styles: number density and its rate in one loop over the
-  // neighbor list, forces and heating in a second one.  Between them the stages of the pair style set
-  // what pass 2 reads.  Each thread has some rows of the neighbor list and its own sums, which are
-  // added up at the end; loops with a tally of each pair run on one thread.
+  // Pair engine of the particle fluid styles: pass 1, a loop over the neighbor list, sums number density and its rate; pass
+  // 2 sums forces and heating.  In between, the stages set the input of pass 2.  Each thread has some rows of the neighbor
+  // list and its own sums, which are added up at the end; loops with a tally of each pair run on one thread.
 
   class Engine : protected Pointers {
    public:
     Engine(class LAMMPS *);
     ~Engine() override;
 
-    // simd = auto: the loops for the widest vectors of this processor; none, avx2, avx512: those
-    // loops; false if processor or compiler do not have them
+    // Choose the loops: simd = auto, for the widest vectors of this processor; none, avx2, or avx512.  Return false if
+    // processor or compiler do not have them
     bool choose_loops(const std::string &simd);
 
-    void set_threads(Threads *team) { threads = team; }    // which the caller keeps
+    void set_threads(Threads *team) { threads = team; }    // the caller owns the team
     Threads &team() const { return *threads; }
     const LoopSet &loop_set() const { return *loops; }
     template <class Task> void for_each(int n, const Task &task) { threads->for_each(n, task); }
 
-    // choose the loops; the parameters are read until the next call
+    // Choose the loops for these parameters, which the loops read until the next call
     void setup(const Parameters &);
 
-    // pass 1: particle[] from atom->x and vest, spin[] from omegaest (micropolar), which are zero
-    // where these are nullptr; density[] of owned atoms (with the particle itself) and the
-    // contributions to ghost atoms; slopes_read: by other loops than that of the forces, or by stages
+    // Pass 1: set particle[] from atom->x and vest, spin[] from omegaest (micropolar), zero for nullptr; sum density[] of
+    // owned atoms (with the particle itself) and the contributions to ghost atoms.  slopes_read: stages, or other loops than
+    // that of the forces, read F
     void accumulate_density(NeighList *, double **vest, double **omegaest, bool slopes_read);
 
-    // cdot of density[] alone, of the velocities that the caller has set in particle[] on owned and
-    // ghost atoms, by the pairs of pass 1
+    // Sum cdot of density[] again, from the velocities that the caller has set in particle[] on owned and ghost atoms, by
+    // the pairs of pass 1
     void accumulate_rates();
 
-    // pass 2: force[] (micropolar: and torque[]) from particle[] with vol and g set by the caller
-    // on owned and ghost atoms, and the drag of single particles
+    // Pass 2: sum force[] and side, from particle[] with vol and g set by the caller on owned and ghost atoms; add the drag
+    // of single particles
     void accumulate_forces(NeighList *, PairTally *, const StepPlan &);
 
-    // what the noise needs before, or the heat that partners share after pass 2: added to noise.total of owned and ghost
-    // atoms, with room for the spare ones
+    // Add the sums for the noise, before pass 2, or the heat that partners share, after pass 2, to noise.total of owned and
+    // ghost atoms, with room for the spare ones
     void accumulate_numbers(const NoiseForm &, const NoiseData &noise);
     void accumulate_work(const NoiseForm &, const NoiseData &noise);
 
-    // count random numbers of each owned particle and the next ones, n in all, the next number after n + BLOCK of them
+    // Draw count random numbers for each of the first n atoms: number k of atom i is numbers[k * (n + BLOCK) + i]
     void draw_numbers(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
 
-    // the same as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
+    // Sum as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
     void accumulate_friction(NeighList *, int not_fluid);
 
-    // friction of those pairs of these rows alone, with these slopes and the noise of surfaces, or nullptr, by this thread; after
-    // pass 2
+    // After pass 2: sum the friction of the pairs in these rows, with these slopes and the noise of surfaces (nullptr:
+    // none), on this thread
     void accumulate_friction(SurfacePairs &, BoundaryRows &, double *slope, PairTally *,
                              const StepNoise *, int thread);
 
-    // sum_j V_j F (e.u)^2 of owned and ghost atoms, of the volumes in particle[] and the squares of pass 1; room for the
-    // spare ones.  Set the square of a pair for other velocities in particle[]
+    // Sum V_j F (e.u)^2 over j, for owned and ghost atoms, from the volumes in particle[] and the squares of pass 1; room
+    // for the spare ones.  set_square() sets the square of a pair from other velocities in particle[]
     void accumulate_shear_rates(std::vector<double> &rates);
     void set_square(int i, int j, bigint entry);
 
-    // what owned and ghost atoms get per time by a flow, of flow[]; room for the spare ones
+    // Sum the rates that owned and ghost atoms get by the flow at a place, from flow[]; room for the spare ones
     void accumulate_flow(int place, std::vector<double> &rate);
 
-    // sums of the diffusion of volume, width numbers of each owned and ghost atom; room for the spare ones
+    // Sum the diffusion of volume, width numbers for each owned and ghost atom; room for the spare ones
     void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,
                               std::vector<SumBlock> &sums);
 
-    // forces, torques, heat and divergence of those pairs alone, and their flows, added to arrays with room for the
-    // spare particles; after pass 2; without noise
+    // After pass 2: add forces, torques, heat and divergence of these pairs, or their flow, to arrays with room for the
+    // spare particles; without noise
     void accumulate_forces(PairSubset &, ForceSum *, ChannelSums &, double *divergence);
     void accumulate_flow(int place, PairSubset &, double *rate) const;
 
-    // drag of an owned particle, added to its force and, by channel, to its heat, energy per time; linear, and in a
-    // minimization, which has no velocities: relative to rest
+    // Add the drag of an owned particle to its force and, by channel, its heat per time; relative to rest if linear, and in
+    // a minimization, which has no velocities
     void add_drag(int i, int not_fluid, bool linear, double *force_of, double *heat) const;
     bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
 
-    // the pairs inside the support that pass 1 has found, for the sums of other stages: function(i, j, entry) for each of
-    // them, or for those in the row ii of the neighbor list
+    // The pairs inside the support that pass 1 has found, for the sums of stages: call function(i, j, entry) for each pair,
+    // or for each pair in row ii of the neighbor list
     const LoopData &pairs() const { return data; }
     double slope(int i, int j, bigint entry) const    // F
     {
@@ -338,8 +334,8 @@ namespace SPHDissipation {
         function(i, index_of(data.neighbor[entry]), entry);
     }
 
-    // the same on all threads, each with its rows of the neighbor list: function(i, j, entry, sum) adds to sum[0] ...
-    // sum[n - 1], which are total or will be added to it
+    // Sum over these pairs on all threads, each with its rows of the neighbor list: function(i, j, entry, sum) adds to
+    // sum[0] ... sum[n - 1], which are total or will be added to total
     template <class Row, class Function>
     void sum_pairs(ThreadSums<Row> &row_sums, Row *total, std::size_t n, Function &&function) const
     {
@@ -353,9 +349,9 @@ namespace SPHDissipation {
 
     const Parameters &parameters() const { return *par; }
     const Constants &constants() const { return *fixed; }    // of these parameters
-    // what is between the passes, of owned and ghost atoms; from pass 1 until atoms move to other processors
+    // Rows of owned and ghost atoms between the passes; valid from pass 1 until atoms move to other processors
     const ParticleRows &rows() const { return *atom_rows; }
-    StateRows states() const;    // of the owned atoms as they are
+    StateRows states() const;    // of the owned atoms as they are now
     // reference volume of a particle, owned or ghost
     double weight(int i) const { return data.weight ? data.weight[i] : 1.0; }
     bool has_spin() const { return fixed->spins(); }
@@ -366,22 +362,22 @@ namespace SPHDissipation {
     DensitySum *density = nullptr;
     ForceSum *force = nullptr;
     ChannelSums side;
-    // no numbers without spins
+    // fields of messages, without numbers if there are no spins
     Field torques() { return {side.rows.data(), (std::size_t) side.width, has_spin() ? 3 : 0}; }
     Field spins() { return field(spin, has_spin() ? spin->w : nullptr, has_spin() ? 3 : 0); }
     double *zeta_term = nullptr;         // zeta cdot/c, set by the caller on owned and ghost atoms
-    double *state_pressure = nullptr;    // of their states, as zeta_term; set if there are any
-    std::vector<std::vector<FlowRow>> flow;    // the same, of the flows of any type
+    double *state_pressure = nullptr;    // of the states, on owned and ghost atoms; unset without
+    std::vector<std::vector<FlowRow>> flow;    // by flow, of owned and ghost atoms
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
-    std::vector<std::vector<double>> flow_rate;    // what each flow has given in the last forces
-    std::vector<double> viscosity;                 // the same, mu, if any is not constant
+    std::vector<std::vector<double>> flow_rate;    // rates of each flow in the last forces
+    std::vector<double> viscosity;                 // mu of atoms, if any mu is not constant
     std::vector<double>
-        energy;    // the same, internal energy, if particles have the noise of their temperatures
-    void set_wall_energy(const double *);    // what walls hold of it, of owned atoms
+        energy;    // internal energy of owned and ghost atoms, if particles have temperatures (temp energy)
+    void set_wall_energy(const double *);    // energy in the forces of walls, of owned atoms
     void forget_wall_energy();
-    std::vector<Excess> excess;    // the same; empty: of no particle
+    std::vector<Excess> excess;    // of owned and ghost atoms; empty: of no particle
 
-    // groups of the bodies, and whether the next densities leave their rho as it is: see ParticleRows::add_offset()
+    // group bits of the bodies; true: the next densities keep rho of bodies, see ParticleRows::add_offset()
     int body_bits = 0;
     bool keeps_bodies = false;
     double *divergence =
@@ -389,8 +385,8 @@ namespace SPHDissipation {
     Spin *spin = nullptr;    // micropolar only
 
    private:
-    mutable std::vector<double> wall_energy;         // empty: nothing
-    mutable std::vector<tagint> wall_energy_tags;    // of the atoms in its order
+    mutable std::vector<double> wall_energy;         // empty: no energy
+    mutable std::vector<tagint> wall_energy_tags;    // IDs of the atoms of wall_energy
     void follow_atoms() const;
     const LoopSet *loops = &loops_plain;
     const Parameters *par;
@@ -403,8 +399,7 @@ namespace SPHDissipation {
     std::vector<double> square, volume;
     std::vector<int> types;    // of owned, ghost, and spare particles, if their coefficients differ
 
-    // rows first_row[k] ... first_row[k+1] - 1 of the neighbor list are those of thread k, whose pairs
-    // begin with entry first_pair[k]
+    // thread k has the rows first_row[k] ... first_row[k+1] - 1 of the neighbor list; its pairs begin at entry first_pair[k]
 
     std::vector<int> first_row;
     std::vector<bigint> first_pair;
@@ -413,11 +408,11 @@ namespace SPHDissipation {
     ThreadSums<DensitySum> density_sums;
     ThreadSums<ForceSum> force_sums;
     ThreadSums<double> side_sums;
-    ThreadSums<double> scalar_sums;    // of all else that is one number
+    ThreadSums<double> scalar_sums;    // for all other sums
 
     double *slopes = nullptr;    // F of pairs, if pass 1 leaves them
 
-    int nlocal_forces = -1, nghost_forces = -1;    // # of atoms that force[] is of
+    int nlocal_forces = -1, nghost_forces = -1;    // # of atoms at the last pass 2
     int nmax = 0, nmax_weights = 0, imax = 0;
     bigint pair_max = 0, slope_max = 0;
 

@@ -16,7 +16,7 @@
 #include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_parameters.h"
 
-// the pair loops for processors with AVX2, chosen at run time
+// The pair loops for processors with AVX2, chosen at run time
 
 #ifdef SPH_DISSIPATION_DISPATCH
 

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <cstring>
 
-// the pair loops without vectors, for every processor and compiler
+// The pair loops without vectors, for every processor and compiler
 
 #define LOOPS loops_of_plain
 #define LOOPS_SET loops_plain

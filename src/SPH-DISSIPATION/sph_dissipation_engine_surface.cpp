@@ -62,7 +62,7 @@ void SurfacePairs::find(BoundaryRows &all, int nall, const std::function<int(int
 }
 
 /* ----------------------------------------------------------------------
-   a number of each copy, by value(index of the atom)
+   Set a number of each copy by value(index of the atom); spare: that of the spare particles.
 ------------------------------------------------------------------------- */
 
 template <class T, class Value>

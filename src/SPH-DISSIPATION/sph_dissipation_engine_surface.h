@@ -25,20 +25,20 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Pairs of the fluid and boundary particles of one thread, whose friction and noise the loops of pass 2 work off apart from all
-  // others: each with a slope of its own, and in the frame of the rigid body of the boundary.  So what the loops read are
-  // copies: spare particles; the boundary particles; those of the fluid, one for each body that they are near to.
-  // Engine::accumulate_friction() has the sums.
+  // Pairs of fluid and boundary particles of one thread, for whose friction and noise the loops of pass 2 run separately:
+  // each pair has its own slope, in the frame of the rigid body of the boundary.  So the loops read copies: of spare
+  // particles; of boundary particles; of fluid particles, one for each body near them.  Engine::accumulate_friction() runs
+  // the loops.
 
   class SurfacePairs {
    public:
-    // when the neighbor list is new: those of the rows with a body(i), number from 0 on, of boundary particle i; sets
+    // When the neighbor list is new: find the rows whose boundary particle i has a body, body(i) >= 0; set
     // BoundaryRows::candidate_copy
     void find(BoundaryRows &, int nall, const std::function<int(int)> &body);
     const std::vector<int> &places() const { return place; }    // of these rows in BoundaryRows
 
-    // the pairs of this step; copy(i, wall, particle, spin) sets those of particle i in the frame of the body of this boundary
-    // particle; spin: nullptr without spins
+    // Begin a step: copy(i, wall, particle, spin) sets the copy of particle i in the frame of the body of boundary particle
+    // wall; spin: nullptr without spins
     template <class Copy> void begin(const BoundaryRows &rows, bool spins, Copy &&copy)
     {
       const std::size_t n = index.size();
@@ -51,7 +51,7 @@ namespace SPHDissipation {
       for (std::size_t m = 0; m < place.size(); m++) count[m] = rows.count[place[m]];
     }
 
-    // function(i, is_boundary, k) for each copy of a particle i; k: its place in the sums
+    // Call function(i, is_boundary, k) for each copy of a particle i; k: place in the sums
     template <class Function> void visit(Function &&function) const
     {
       for (std::size_t k = BLOCK; k < index.size(); k++)
@@ -68,11 +68,11 @@ namespace SPHDissipation {
     friend class Engine;
     struct Index {
       int particle;
-      int wall;    // one of the body, itself for a boundary particle
+      int wall;    // a particle of the body; for a boundary particle itself
     };
     std::vector<Index> index;
     std::vector<int> place, rows,
-        count;    // of each row: in BoundaryRows; the boundary particle's copy; pairs
+        count;    // of each row: its place in BoundaryRows, copy of its boundary particle, # of pairs
     std::vector<bigint> first;
     std::vector<Particle> particle;
     std::vector<Spin> spin;    // empty without spins

@@ -24,7 +24,7 @@
 //   tait    p_el = rho0 c_el^2 / gamma [(rho/rho0)^gamma - 1] + pb_el
 //   ideal   p_el = pb,   Gamma = gamma - 1
 //
-// Without tension, p_el is 0 below the density rho_min at which it gets 0, and e_el is that of rho_min.
+// Without tension, p_el is 0 below rho_min, the density without pressure, and e_el is there that of rho_min.
 //
 // elastic_energy() is the energy e_el per mass from which p_el follows, p_el = rho^2 de_el/drho, zero at rho0.
 
@@ -47,16 +47,16 @@ namespace SPHDissipation {
     return (eos == Eos::IDEAL) ? 1.4 : 7.0;
   }
 
-  // the defaults are those of a type without coefficients: no pressure, no energy
+  // Parameters of a type; the defaults, of a type without coefficients, give no pressure and no energy
 
   struct EosParams {
 
     double rho0 = 1.0;     // reference density, mass/length^n
     double c0 = 0.0;       // adiabatic sound speed at rho0, and at the reference temperature
-    double pb = 0.0;       // background pressure: that at rho0, and at the reference temperature
+    double pb = 0.0;       // background pressure, at rho0 and at the reference temperature
     double gamma = 7.0;    // exponent of tait and ideal
 
-    // by derive()
+    // set by derive()
     double gruneisen = 0.0;            // Gamma
     double c_el = 0.0, pb_el = 0.0;    // sound speed and background pressure without heat
     double rho_min = -HUGE_VAL;    // density below which there is no pressure; -inf with tension
@@ -65,7 +65,7 @@ namespace SPHDissipation {
     void derive(Eos eos, double gruneisen_in, double reference_heat, bool tension = true);
   };
 
-  // density at which the elastic pressure of linear and tait is 0; 0 if it is positive at all densities
+  // Return the density at which the elastic pressure of linear and tait is 0; 0 if it is positive at all densities
 
   inline double density_without_pressure(Eos eos, const EosParams &par)
   {
@@ -75,9 +75,8 @@ namespace SPHDissipation {
     return (power > 0.0) ? par.rho0 * std::pow(power, 1.0 / par.gamma) : 0.0;
   }
 
-  // Set what follows from c0, pb and gamma, of Grueneisen's constant (read for linear and tait) and
-  // the heat per mass cv T0 at the reference temperature; c_el is NaN if sound is faster than c0 by
-  // the heat alone.
+  // Set what follows from c0, pb, gamma, Grueneisen's constant (read for linear and tait), and the heat per mass cv T0 at
+  // the reference temperature; c_el is NaN if the heat alone makes sound faster than c0.
 
   inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat, bool tension)
   {
@@ -91,7 +90,7 @@ namespace SPHDissipation {
     pb_el -= gruneisen * rho0 * reference_heat;
   }
 
-  // x^gamma, without pow() for the usual exponent of water
+  // Return x^gamma, without pow() for the usual exponent of water
 
   SPH_FUNCTION double tait_power(double x, double gamma)
   {
@@ -102,7 +101,7 @@ namespace SPHDissipation {
     return std::pow(x, gamma);
   }
 
-  // pressure p_el at density rho, without that of the heat
+  // Return the pressure p_el at density rho, without the pressure of the heat
 
   SPH_FUNCTION double elastic_pressure(Eos eos, const EosParams &par, double rho)
   {
@@ -119,7 +118,7 @@ namespace SPHDissipation {
     }
   }
 
-  // elastic energy per mass at density rho
+  // Return the elastic energy per mass at density rho
 
   SPH_FUNCTION double elastic_energy(Eos eos, const EosParams &par, double rho)
   {
@@ -136,14 +135,14 @@ namespace SPHDissipation {
     return par.c_el * par.c_el / par.gamma * (power + rest - 1.0) + background;
   }
 
-  // pressure of heat q per mass at density rho
+  // Return the pressure of heat q per mass at density rho
 
   SPH_FUNCTION double thermal_pressure(const EosParams &par, double rho, double q)
   {
     return par.gruneisen * rho * q;
   }
 
-  // pressure at density rho; e = internal energy per mass, used where heat has a pressure only
+  // Return the pressure at density rho; e = internal energy per mass, read only if heat has a pressure
 
   SPH_FUNCTION double pressure(Eos eos, const EosParams &par, double rho, double e)
   {
@@ -152,7 +151,7 @@ namespace SPHDissipation {
     return p + thermal_pressure(par, rho, e - elastic_energy(eos, par, rho));
   }
 
-  // speed of sound at density rho and internal energy e per mass, c^2 = dp/drho at constant entropy,
+  // Return the speed of sound at density rho and internal energy e per mass: c^2 = dp/drho at constant entropy,
   // de = p/rho^2 drho
 
   inline double sound_speed(Eos eos, const EosParams &par, double rho, double e)
@@ -166,22 +165,21 @@ namespace SPHDissipation {
     return (q == 0.0) ? c : std::sqrt(c * c + par.gruneisen * (par.gruneisen + 1.0) * q);
   }
 
-  // heat per mass at density rho, at the entropy that heat q has at density rho_q
+  // Return the heat per mass at density rho, at the entropy of heat q at density rho_q
 
   inline double heat_at(const EosParams &par, double q, double rho_q, double rho)
   {
     return (par.gruneisen == 0.0) ? q : q * std::pow(rho / rho_q, par.gruneisen);
   }
 
-  // Density at pressure p, by Newton's method from a density rho, with the heat q per mass that it has there: it stays,
-  // n = 0, or goes with the density as at constant entropy, n = Gamma.  The pressure is a convex function of the
-  // density then.  NaN if there is no such density.
+  // Return the density at pressure p, by Newton's method from density rho with heat q per mass; NaN if there is none.  The
+  // heat is constant, n = 0, or that of constant entropy, n = Gamma.  The pressure is a convex function of the density.
 
   inline double density_by_steps(Eos eos, const EosParams &par, double p, double q, double rho,
                                  double n)
   {
     constexpr int MOST = 100;
-    constexpr double CLOSE = 1.0e-10;    // the next step would be its square
+    constexpr double CLOSE = 1.0e-10;    // relative step; the next one would be its square
     const double start = rho;
     for (int k = 0; k < MOST; k++) {
       const double now = (n == 0.0) ? q : heat_at(par, q, start, rho);
@@ -194,7 +192,7 @@ namespace SPHDissipation {
     return NAN;
   }
 
-  // density at pressure p and heat q per mass
+  // Return the density at pressure p and heat q per mass
 
   inline double density_at(Eos eos, const EosParams &par, double p, double q)
   {
@@ -215,7 +213,7 @@ namespace SPHDissipation {
     }
   }
 
-  // density at pressure p, at the entropy that heat q per mass has at density rho
+  // Return the density at pressure p, at the entropy of heat q per mass at density rho
 
   inline double density_at_entropy(Eos eos, const EosParams &par, double p, double q, double rho)
   {

@@ -23,7 +23,7 @@ using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ----------------------------------------------------------------------
-   call send(# of values per atom) for each message, with the fields that are in it
+   Call send(# of values per atom) for each message, with its fields in this->fields.
 ------------------------------------------------------------------------- */
 
 template <class Send> void Exchange::in_parts(const std::vector<Field> &next, const Send &send)
@@ -67,7 +67,7 @@ void Exchange::reverse(const std::vector<Field> &next, int bits)
 }
 
 /* ----------------------------------------------------------------------
-   class CommBrick sends downwards and upwards in turn, along x, y, z
+   Class CommBrick sends downwards and upwards in turn, along x, y, z: every second message comes from above.
 ------------------------------------------------------------------------- */
 
 const std::vector<int> &Exchange::ghosts_from_above()
@@ -81,8 +81,8 @@ const std::vector<int> &Exchange::ghosts_from_above()
 }
 
 /* ----------------------------------------------------------------------
-   copy(values, their place in the message, their number) for each field and the chosen ones of the atoms index(k), k < n; returns
-   the length of the message.  Groups are the same for an atom and its ghosts.
+   Call copy(values, place in the message, width) for each field and each chosen atom index(k), k < n; return the length of
+   the message.  Groups are the same for an atom and its ghosts.
 ------------------------------------------------------------------------- */
 
 template <class Index, class Copy>
@@ -154,7 +154,7 @@ int Exchange::pack_reverse(int n, int nfirst, double *buf) const
 }
 
 /* ----------------------------------------------------------------------
-   a particle stands in list once
+   Threads may add at the same time: a particle stands in list once.
 ------------------------------------------------------------------------- */
 
 void Exchange::unpack_reverse(int n, const int *list, const double *buf) const

@@ -27,7 +27,7 @@ class Pair;
 
 namespace SPHDissipation {
 
-  // width doubles of each atom; those of atom i begin at first + i * stride
+  // A field of width doubles for each atom; those of atom i begin at first + i * stride
 
   struct Field {
     double *first;
@@ -35,7 +35,7 @@ namespace SPHDissipation {
     int width;
   };
 
-  // the field that begins with a member of an array of structs: field(array, array->member, width)
+  // Return the field that begins with a member of an array of structs: field(array, array->member, width)
 
   template <class T> Field field(T *, double *member, int width)
   {
@@ -43,7 +43,7 @@ namespace SPHDissipation {
     return {member, sizeof(T) / sizeof(double), width};
   }
 
-  // Gather what all processors have, in their order.  (Not const: LAMMPS's stand-in for MPI reads no constants.)
+  // Gather the values of all processors, in their order.  (Not const: LAMMPS's stand-in for MPI reads no constants.)
 
   template <class T>
   std::vector<T> gather_all(MPI_Comm world, std::vector<T> mine, MPI_Datatype type)
@@ -61,7 +61,7 @@ namespace SPHDissipation {
     return all;
   }
 
-  // a number of all processors together; op: MPI_SUM, MPI_MIN, ... of those of each
+  // Reduce a number over all processors; op: MPI_SUM, MPI_MIN, ...
 
   template <class T> T over_all(MPI_Comm world, T mine, MPI_Op op)
   {
@@ -74,24 +74,22 @@ namespace SPHDissipation {
     return mine;
   }
 
-  // The communication of a pair style between owned and ghost atoms: a stage of the step names the
-  // fields that are to go, the pair style hands on the packing that LAMMPS asks for.  Fields that are
-  // wider than one message go in several.
+  // The communication of a pair style between owned and ghost atoms: a stage names the fields, and the pair style calls the
+  // packing for LAMMPS.  Fields that are wider than one message go in several messages.
 
   class Exchange : protected Pointers {
    public:
     Exchange(class LAMMPS *lmp, Pair *pair) : Pointers(lmp), pair(pair) {}
-    void set_threads(Threads *team) { threads = team; }    // which the caller keeps
+    void set_threads(Threads *team) { threads = team; }    // the caller owns the team
     static constexpr int ROOM =
-        24;    // values per atom of a message, for which the pair style asks LAMMPS
+        24;    // most values per atom in a message; the pair style requests this room
 
-    // owned atoms to their ghosts; ghosts, summed, to their owners (newton on); of groups with these bits alone, 0: of all
+    // Send owned atoms to their ghosts; add ghosts to their owners (newton on); bits = of the groups that are sent, 0: all
     void forward(const std::vector<Field> &, int bits = 0);
     void reverse(const std::vector<Field> &, int bits = 0);
 
-    // With communication by bricks a ghost comes along x, then y, then z; returns the ghosts whose last step was downwards.
-    // A particle next to one of them is, on the processor of the other, a ghost whose last step was upwards.  By messages
-    // without contents
+    // Return the ghosts whose last step in the communication by bricks, along x, then y, then z, was downwards.  A particle
+    // next to such a ghost is, on the processor of the other, a ghost whose last step was upwards.  Sends empty messages
     const std::vector<int> &ghosts_from_above();
 
     int pack_forward(int n, const int *list, double *buf) const;
@@ -102,9 +100,9 @@ namespace SPHDissipation {
    private:
     Pair *pair;
     std::vector<Field> fields;
-    int chosen = 0;    // bits of the groups whose atoms are in the messages, 0: of all
+    int chosen = 0;    // bits of the groups whose atoms are in the messages, 0: all
     std::vector<int> from_above;
-    int nreceived = -1;    // messages so far, while somebody asks for ghosts_from_above(); else -1
+    int nreceived = -1;    // messages so far, in ghosts_from_above(); else -1
     mutable Threads one_thread;
     Threads *threads = &one_thread;
 

@@ -32,7 +32,7 @@ using namespace SPHDissipation;
 namespace {
 constexpr int NOT_SCALED = 0, NOT_PERMUTED = 0, POINT_TO_POINT = 0, BLOCKING = 0;
 
-// LAMMPS 4 Feb 2025 has no choice of blocking messages
+// Create an FFT; LAMMPS 4 Feb 2025 has no choice of blocking messages
 
 template <class FFT, class... Bounds>
 FFT *create_fft(LAMMPS *lmp, MPI_Comm world, int *nbuf, Bounds... bounds)

@@ -25,18 +25,17 @@ class Atom;
 
 namespace SPHDissipation {
 
-  // characters of a line of a data file that read_data takes
+  // Most characters of a line of a data file that read_data reads
   constexpr std::size_t MOST_OF_DATA_LINE = 254;
 
-  // the states of all channels; those of the channel that has this place
+  // Return the states of all channels; return those of the channel with this place
   const std::vector<StateInfo> &state_table();
   const StateInfo &state_info(int slot);
 
-  constexpr int NTRACE = 3;    // numbers of a particle in which hashes are, see leave_traces()
+  constexpr int NTRACE = 3;    // numbers per particle that store hashes, see leave_traces()
 
-  // What the fluid keeps of a particle beyond class Atom, per atom.  The atom style derives from
-  // this class and keeps the pointers up to date; class Atom owns the arrays, as custom properties
-  // of the same names.
+  // Arrays of the fluid by particle, beyond class Atom.  The atom style derives from this class and keeps the pointers up to
+  // date; class Atom owns the arrays, as custom properties of the same names.
 
   class Fields {
    public:
@@ -46,40 +45,39 @@ namespace SPHDissipation {
 
     static Fields *of(Atom *);
 
-    // Return the same, or nullptr where the particles do not spin
+    // Return the fields, or nullptr where the particles do not spin
 
     static Fields *with_spins(Atom *);
 
     const bool has_spins;
 
-    // rate of the internal energy when the step began, see TimeStep; of a particle of an open zone, see OpenCondition
+    // rate of the internal energy at the beginning of the step, see TimeStep; in an open zone see OpenCondition
     double *desph_before = nullptr;
 
     double *inertia = nullptr;    // moment of inertia per mass, length^2; nullptr without spins
     double **omegaest =
         nullptr;    // spin at the end of the step, extrapolated; nullptr without spins
 
-    // States of channels, by their place in the list States; nullptr where there is no room.  Of a new particle 0; of
-    // StateKind::STRAIN also minus the factor by which it differs from the density that the next forces find; -1 of a particle
-    // from a data file where the file has it in the column of another one
+    // States of channels, by place in the list States; nullptr without room.  0: new particle.  Negative: minus the ratio of
+    // a StateKind::STRAIN to the density that the next forces find; or -1, from a data file: the number is in the column of
+    // another channel
     double *state[MOST_STATES] = {};
-    std::vector<int> slots;    // places of those that there is room for
+    std::vector<int> slots;    // places with room
 
-    int room(const StateInfo &) const;    // number of them, of a channel
+    int room(const StateInfo &) const;    // number of states of a channel with room
     static std::string state_name(int slot);
 
-    // Of density continuity: the part of rho that is the sum of the last forces, negative of a body, see
-    // ParticleRows::add_offset(); 0 of a density that waits for its first sum (that of a new particle is 0, which means
-    // rho0).  Of the last evaluation of the diffusion the rate of the volume, that of the internal energy, and how full the
-    // support is; the rate of the volume of the evaluation before
+    // Density continuity: rho_sum is the sum in rho at the last forces, negative for bodies, see ParticleRows::add_offset();
+    // 0 before the first sum (a new particle also has rho = 0, which means rho0).  Last evaluation of the diffusion: rates
+    // of volume and internal energy, filled part of the support, 1 inside of the fluid; rate of the volume before
     double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
     double *vol_heat = nullptr, *vol_support = nullptr;
     double *shear_rate =
-        nullptr;    // of the last forces, if any viscosity depends on it, otherwise 0
+        nullptr;    // rate of shear at the last forces, if any viscosity depends on it; else 0
     bool density_in_files = false;    // data files have a column rho
 
-    // When a run or a minimization ends: the trace of each particle, of others 0; how many have one, the largest extent of the
-    // box, a hash of the box, the step
+    // At the end of a run or minimization: the trace of each particle, 0 of particles without; the number of particles with
+    // a trace, the largest extent of the box, a hash of the box, the step
     double **trace = nullptr;
     struct {
       bigint number = 0;    // 0: there was no run

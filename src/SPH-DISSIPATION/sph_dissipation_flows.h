@@ -14,20 +14,20 @@
 #ifndef LMP_SPH_DISSIPATION_FLOWS_H
 #define LMP_SPH_DISSIPATION_FLOWS_H
 
-// What flows between particles along the difference of a value, as heat along that of the temperature.  Particle i gets
+// Flows of amounts Q between particles by the differences of a value q, as heat by the temperature.  Particle i gets
 //   dQ_i/dt = sum_j 2 k_ij F V_i V_j (q_j - q_i),   k_ij = 2 k_i k_j/(k_i + k_j)
-// of the values q and the coefficients k: the Laplacian of the form morris with q instead of u, with the harmonic mean, for
-// which the flow through a plane between two materials is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput.
-// Phys. 148, 227 (1999).  No pair changes the sum of Q.  A channel that has a flow derives from BaseFlow as well; FlowList has
-// all of them, and all other code goes through it.  No LAMMPS include.
+// with the coefficients k: the Laplacian of the form morris with q instead of u.  With the harmonic mean, the flow through a
+// plane between two materials is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148, 227 (1999).
+// No pair changes the sum of Q.  A channel with a flow also derives from BaseFlow; FlowList has all flows, and all other
+// code uses FlowList.  No LAMMPS include.
 
 #include "sph_dissipation_states.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What the loop reads of a particle; all numbers are 0 of others.  A boundary particle has either a volume, a value, and
-  // a coefficient, or what its surface gives.  Rows are read by fours.
+  // Input of the flow loop; all numbers are 0 for particles without a flow.  A boundary particle has either a volume, a
+  // value, and a coefficient, or a flux.  Rows are read by fours.
   struct alignas(16) FlowRow {
     double vol;            // V
     double value;          // q
@@ -35,16 +35,16 @@ namespace SPHDissipation {
     double flux;           // per area and time, from a boundary particle to the fluid
   };
 
-  // place of the flow that walls and open zones take part in, the one of heat
+  // Place of the flow of heat, the only one that passes walls and open zones
   constexpr int HEAT_FLOW = 0;
 
-  // k_ij of two types with these coefficients
+  // Return k_ij of two types with these coefficients
   SPH_FUNCTION double mean_coefficient(double a, double b)
   {
     return (a > 0.0 && b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
   }
 
-  // A particle as the channel of a flow sees it: rows = StateRows
+  // A particle, for the channel of a flow: rows = StateRows
   template <class Rows, class Channel> struct FlowSite {
     const Rows &rows;
     int i;
@@ -55,18 +55,18 @@ namespace SPHDissipation {
     SPH_FUNCTION double rho() const { return rows.rho[i]; }
   };
 
-  // Defaults for what a flow does not have.  Its channel says coefficient(type, rho0), of a type of this reference density, and
-  // value(site) of a particle, and has OF_MOTION = false.  What flows is added to the internal energy, or to the state of
-  // the channel, see FlowingState.
+  // Defaults of the members of a flow.  Its channel must define coefficient(type, rho0) of a type with this reference
+  // density, value(site) of a particle, and OF_MOTION = false.  The flow changes the internal energy, or the state of the
+  // channel, see FlowingState.
   struct BaseFlow {
-    // with viscous, the integrator solves for the value; else the flow limits the time step in any case
+    // true: with viscous, the integrator solves for the value; false: the flow always limits the time step
     static constexpr bool STIFF = false;
-    // with temp energy, pass 2 has the flow, with its noise; else the flow has a loop of its own in any case
+    // true: with temp energy, pass 2 has the flow, with its noise; false: the flow always has its own loop
     static constexpr bool IN_PASS_2 = false;
   };
 
-  // A state that flows: an amount, which no pair changes the sum of, of which the amount per mass drives the flow.  Its channel says
-  // FIELD, KEYWORD, count(), and coefficient(), for a diffusivity D rho0 D.
+  // A state that flows: an amount, whose sum no pair changes; the amount per mass drives the flow.  Its channel must define
+  // FIELD, KEYWORD, count(), and coefficient(), rho0 D for a diffusivity D.
   struct FlowingState : BaseState, BaseFlow {
     static constexpr StateKind KIND = StateKind::EXTENSIVE;
     struct Numbers {
@@ -94,14 +94,14 @@ namespace SPHDissipation {
       ((found = found || std::is_same<One, Channel>::value, k += found ? 0 : 1), ...);
       return k;
     }
-    // bits of those that pass 2 has with temp energy
+    // Return the bits of the flows that pass 2 has with temp energy
     static constexpr int in_pass_2() { return ((One::IN_PASS_2 ? 1 << place<One>() : 0) + ...); }
-    // call function(channel, place) of each flow with its bit
+    // Call function(channel, place) for each flow with its bit
     template <class Function> SPH_FUNCTION static void visit(int bits, Function &&function)
     {
       ((bits >> place<One>() & 1 ? function(One(), place<One>()) : void()), ...);
     }
-    // of a type
+    // Set of[k] to the coefficient of flow k of a type
     template <class Coeffs> static void coefficients(const Coeffs &type, double rho0, double *of)
     {
       ((of[place<One>()] = One::coefficient(type.template of<One>(), rho0)), ...);

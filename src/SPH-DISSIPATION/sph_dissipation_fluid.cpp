@@ -49,11 +49,11 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// the mode of that rate then has 1/(1 - 0.1/2) times the temperature between the steps
+// Largest viscous rate times time step without a warning: between the steps, a mode of this rate is 5 % too hot.
 
 static constexpr double ACCURATE_NOISE = 0.1;
 
-// of sqrt(kT/m)/c0, which is the relative standard deviation of the density in the volume of a particle
+// Largest sqrt(kT/m)/c0 without a warning: the relative standard deviation of the density in the volume of a particle.
 
 static constexpr double FAST_NOISE = 0.5;
 
@@ -83,7 +83,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
 Fluid::~Fluid() = default;
 
 /* ----------------------------------------------------------------------
-   global settings
+   Read the arguments of pair_style.
 ------------------------------------------------------------------------- */
 
 void Fluid::settings(int narg, char **arg)
@@ -99,12 +99,12 @@ void Fluid::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   set coeffs for one or more type pairs
+   Read the arguments of pair_coeff.
 ------------------------------------------------------------------------- */
 
 void Fluid::coeff(int narg, char **arg)
 {
-  model->adopt();    // what others have set comes first
+  model->adopt();    // keep the coefficients that other commands have set
   model->coeff(narg, arg, pair->setflag);
   announced = set_up = false;
   touched = true;
@@ -126,7 +126,7 @@ void Fluid::init()
 }
 
 /* ----------------------------------------------------------------------
-   an occasional list, which LAMMPS keeps but does not build with the others
+   Request an occasional neighbor list, which NeighborSearch fills, or, with a line in the log, one that LAMMPS builds.
 ------------------------------------------------------------------------- */
 
 void Fluid::request_list()
@@ -158,7 +158,7 @@ bool Fluid::is_set_up() const
 }
 
 /* ----------------------------------------------------------------------
-   what the fluid needs from the rest of the simulation
+   Set dim and support; stop with an error if the rest of the simulation does not fit the fluid.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_setup()
@@ -191,8 +191,8 @@ void Fluid::check_setup()
 }
 
 /* ----------------------------------------------------------------------
-   types of this fluid: pair_style hybrid may have others, also types that it gave to another style
-   after their coefficients were set here
+   Set TypeCoeff::other of the types of other styles of pair_style hybrid, which may also have got types that have
+   coefficients here; stop if this style acts between such a type and another one.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_own_types()
@@ -218,7 +218,7 @@ void Fluid::find_own_types()
 }
 
 /* ----------------------------------------------------------------------
-   two types of this fluid whose pairs hybrid gives to other styles only
+   Warn, on rank 0, of two types of this fluid whose pairs belong to other styles of pair_style hybrid only.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_all_interact()
@@ -238,7 +238,7 @@ void Fluid::check_all_interact()
 }
 
 /* ----------------------------------------------------------------------
-   viscosities of unlike types and coefficients of the bulk term
+   Derive the parameters of the loops from the coefficients that the commands have set.
 ------------------------------------------------------------------------- */
 
 void Fluid::derive_coeffs()
@@ -255,7 +255,8 @@ void Fluid::derive_coeffs()
 }
 
 /* ----------------------------------------------------------------------
-   another command, such as fix adapt, has changed coefficients; fix sph/dt follows by itself
+   Take over coefficients that another command, such as fix adapt, has changed; during a run, warn of a time step that is
+   too large now, unless fix sph/dt sets the time step.
 ------------------------------------------------------------------------- */
 
 void Fluid::adopt()
@@ -294,7 +295,7 @@ bigint Fluid::compute(PairTally *tally)
   plan.not_fluid = not_fluid();
   const bool known = continued && !changed && update->setupflag;
   const bool stiff_heat = par.conducts() && temperature->active() && !known;
-  const bool find_rates = !viscous->active();    // which finds them itself
+  const bool find_rates = !viscous->active();    // find_viscous_velocity() finds them
   if (known) {
     viscous->begin_run();
     temperature->begin_run();
@@ -309,7 +310,7 @@ bigint Fluid::compute(PairTally *tally)
   }
   const bigint nbeyond = sum_before_forces(plan, find_rates);
   sum_forces(tally, plan);
-  if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on it
+  if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on heat
   if (par.loops_of_flows) sum_flows();
   if (par.delta > 0.0) sum_diffusion();
   if (!open->empty()) open->sum_impacts(neighbors());
@@ -320,14 +321,14 @@ bigint Fluid::compute(PairTally *tally)
 }
 
 /* ----------------------------------------------------------------------
-   all that pass 2 needs; returns the number of particles beyond the bound of the limit
+   Run pass 1 and all stages before pass 2; return the number of owned particles beyond the bound of the limit.
 ------------------------------------------------------------------------- */
 
 bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 {
   sum_density();
 
-  // noise needs the bound of the limit for the volumes that act in its pairs, those of walls as well
+  // the noise needs the bound of the limit for the volumes of its pairs: set the volumes of walls before the bound
 
   const bool walls = !boundary->empty();
   const Constants &par = model->constants();
@@ -344,8 +345,8 @@ bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 }
 
 /* ----------------------------------------------------------------------
-   Viscosities that are not constant, for whose rates of shear walls have the velocities with which they extend the fluid; then
-   they have their own again.  With viscous of the integrator, they are those of the velocity before the step.
+   Set viscosities that are not constant: from the rates of shear of the present velocities (find_rates), or from those that
+   the particles keep.  For the rates, boundary particles have the velocity of the extended fluid; then their own again.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_viscosities(bool find_rates)
@@ -369,7 +370,7 @@ void Fluid::find_viscosities(bool find_rates)
 }
 
 /* ----------------------------------------------------------------------
-   before the search for particles inside of walls, with the pairs of pass 1
+   Check, at the first forces of a run, for particles in the same place, by the pairs of pass 1.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_places()
@@ -380,7 +381,7 @@ void Fluid::check_places()
 }
 
 /* ----------------------------------------------------------------------
-   a minimization has no velocities: what is minimized is the energy of the equation of state
+   Run pass 1.  In a minimization, which minimizes the energy of the equation of state, all velocities are zero.
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_density()
@@ -396,9 +397,8 @@ void Fluid::sum_density()
 }
 
 /* ----------------------------------------------------------------------
-   In a step, internal energies that get half of their rate at each end of it are those of its
-   middle.  This rate has the work of the pressure at the velocity before the kick, which is half a
-   step late; NoiseStage::share_work() corrects that.
+   Return the time over which internal energies lack the work of the pressure.  In a step, energies are half a step behind,
+   and their last rate has velocities of half a step before, unless NoiseStage::share_work() corrects it.
 ------------------------------------------------------------------------- */
 
 double Fluid::missing_time() const
@@ -535,14 +535,15 @@ double Fluid::received_heat(int groupbit) const
 {
   if (!model->constants().conducts() || !pair->compute_flag) return 0.0;
   if (!model->choice.own_temperatures) return flows->received(groupbit);
-  double total = 0.0;    // pass 2 leaves nothing else with them
+  double total = 0.0;    // pass 2 leaves no other heat in desph
   for (int i = 0; i < atom->nlocal; i++)
     if (atom->mask[i] & groupbit) total += atom->desph[i];
   return total;
 }
 
 /* ----------------------------------------------------------------------
-   friction that is extended behind walls, and the form P1 (64), have no symmetric matrix
+   Solve for the implicit velocities.  The matrix is not symmetric with friction that is extended behind walls and with
+   the form P1 (64), bulk volume.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_viscous_velocity(StepPlan &plan)
@@ -557,7 +558,7 @@ void Fluid::find_viscous_velocity(StepPlan &plan)
 }
 
 /* ----------------------------------------------------------------------
-   after pass 2, whose heat is that of the velocities of the step
+   Solve for the implicit temperatures, after pass 2, which gives the heat of friction.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_temperature()
@@ -568,8 +569,8 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   a minimization leaves the offsets of the densities alone.  A run that continues the last one with the same
-   coefficients has its rates
+   Evaluate the diffusion of volume, if its interval is over, and add its heat; nothing in a minimization.  A run that
+   continues the last one with the same coefficients keeps the rates of the last one.
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_diffusion()
@@ -595,8 +596,8 @@ void Fluid::add_diffusion_heat()
 }
 
 /* ----------------------------------------------------------------------
-   which keeps the fastest mode stable: rates that are extrapolated are, below one per interval.  The rate is that of the
-   reference densities
+   Return the number of steps between two evaluations: the largest n <= 3 with n * rate * dt <= 0.6, at least 1.
+   rate = of the fastest mode of the diffusion, at the reference densities.
 ------------------------------------------------------------------------- */
 
 int Fluid::diffusion_interval() const
@@ -656,7 +657,7 @@ double Fluid::state_energy(int groupbits) const
 }
 
 /* ----------------------------------------------------------------------
-   walls have no internal energy of their own
+   Set the temperature of each owned particle; 0 for particles of walls, which have no internal energy, and of other styles.
 ------------------------------------------------------------------------- */
 
 void Fluid::temperatures(double *temperature) const
@@ -703,7 +704,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
       const bool in_zone = atom->mask[i] & zone_bits;
       const double temperature = value(i);
       desph_before[i] = 0.0;
-      if (in_zone) {    // at a density that is not known yet
+      if (in_zone) {    // the density of the zone is not known yet
         atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;
         continue;
       }
@@ -721,16 +722,15 @@ bool Fluid::checks_speed() const
 }
 
 /* ----------------------------------------------------------------------
-   of the particles, at two neighbor lists one after the other: a liquid faster than that is compressed, its density
-   varies by more than a percent, where it is integrated, and by 5 percent, where it is a sum: flows with sound may be as
-   fast as that.  Single drops of spray may be as well.  Without walls and open ends, speeds are those in the frame of
-   all.
+   Warn once if over 10 % of the particles are faster than a limit at two successive neighbor lists: 0.1 c0 with density
+   continuity, where the density then varies by over 1 %, else 0.3 c0, 5 %, which flows with sound may reach.  Single drops
+   of spray do not count.  Without walls and open ends, speeds are relative to the center of mass.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_speed()
 {
-  constexpr double MANY = 0.1;                                   // of the particles
-  const double fast = (model->choice.continuity) ? 0.1 : 0.3;    // of c0
+  constexpr double MANY = 0.1;                                   // part of the particles
+  const double fast = (model->choice.continuity) ? 0.1 : 0.3;    // speed over c0
   bigint mine[2] = {0, 0}, all[2];
   double mean[3] = {0.0, 0.0, 0.0};
   if (boundary->empty() && open->empty()) group->vcm(0, group->mass(0), mean);
@@ -760,13 +760,14 @@ bool Fluid::checks_expansion() const
 }
 
 /* ----------------------------------------------------------------------
-   Without tension, nothing holds a fluid together where its pressure would be negative.  Spray is a small part of a fluid.
+   Warn once if over half of the particles have densities below 0.9 times that at which the pressure ends.  Without tension,
+   no force holds such a fluid together.  Spray is a small part of a fluid.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_expansion()
 {
   constexpr double MANY = 0.5,
-                   THIN = 0.9;    // of the particles; density over that without pressure
+                   THIN = 0.9;    // part of the particles; density over rho_min
   bigint mine[2] = {0, 0}, all[2];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!has_type(atom->type[i]) || is_boundary(i)) continue;
@@ -831,7 +832,7 @@ void Fluid::set_mean_density(int groupbit)
   constexpr int MOST = 100;
   constexpr double CLOSE = 1.0e-12;
 
-  // with volume mass, the volumes depend on the masses of the neighbors of other types
+  // iterate: with volume mass, volumes depend on the masses of neighbors of other types
 
   on_host([&]() {
     FluidChecks(lmp, style, *model).masses();
@@ -862,7 +863,7 @@ void Fluid::report()
 {
   const FluidChecks check(lmp, style, *model);
   const CoeffTable table = coeff_table();
-  check_places();    // if the forces were not of the host
+  check_places();    // no effect if sum_density() has called it
   if (!announced) {
     model->warn_of_ignored();
     warned_step = noise_step = 0.0;
@@ -896,8 +897,8 @@ void Fluid::report()
 }
 
 /* ----------------------------------------------------------------------
-   Of the motion at the start, or, of a fluid at rest, of that which something drives later.  Shifting prevents a shear
-   elasticity; noise moves a fluid at rest.
+   Warn of a shear elasticity of the arrangement.  A fluid at rest, unless it has noise, is checked again after a time,
+   look_after.  Shifting prevents such an elasticity.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_elasticity(FluidState &state)
@@ -910,7 +911,8 @@ void Fluid::check_elasticity(FluidState &state)
 }
 
 /* ----------------------------------------------------------------------
-   not for thermal motion, which goes to and fro, nor for lists that are not built when particles have moved far enough
+   Return the line of the log about the fastest skin; empty with noise, since thermal motion goes to and fro, and for lists
+   that do not depend on how far particles have moved.
 ------------------------------------------------------------------------- */
 
 std::string Fluid::skin_text(const CoeffTable &table) const
@@ -920,7 +922,8 @@ std::string Fluid::skin_text(const CoeffTable &table) const
 }
 
 /* ----------------------------------------------------------------------
-   with rate, of the fastest viscous mode, times the time step: what the noise asks for
+   Log the noise.  Warn if it has no effect, if rate * dt is large, or if sqrt(kT/m)/c0 is large.  rate = of the fastest
+   viscous mode.
 ------------------------------------------------------------------------- */
 
 void Fluid::announce_noise(double rate)
@@ -965,7 +968,7 @@ void Fluid::announce_noise(double rate)
 }
 
 /* ----------------------------------------------------------------------
-   the fix that sets the time step checks it, with the limits from which it follows
+   Return true if fix sph/dt sets the time step, and checks it.
 ------------------------------------------------------------------------- */
 
 bool Fluid::step_follows() const
@@ -988,13 +991,13 @@ void Fluid::check_time_step(const CoeffTable &table)
 }
 
 /* ----------------------------------------------------------------------
-   of the pairs of types, for the fluid as it is now: by type, the fastest particle, those of walls
-   as well, with the speed of sound at its density and energy, and the thinnest one of the fluid.
-   A type without particles counts with its coefficients.  All code that needs the largest stable
-   time step uses this function.
-   A heavy body pushes light fluid with its own modulus: the sound of its particles is as fast as in this fluid, but for the
-   half of the kernel that the body has.  Walls act with the pressure of the fluid, and do not move by it: neither the speed
-   of sound of their type nor its density counts.
+   Return the coefficients and the largest stable time steps of the pairs of types, for the fluid as it is now.  All code
+   that needs the largest stable time step calls this function.  Of each type it takes the fastest particle, walls included,
+   with the speed of sound at its density and energy, and the smallest density of the fluid.  A type without particles
+   counts with its coefficients.
+   A heavy body pushes light fluid with its own modulus: its sound counts as that in the light fluid, times 1/2 for the half
+   of the kernel that the body fills.  Walls act with the pressure of the fluid and do not move by it: neither the speed of
+   sound nor the density of their type counts.
 ------------------------------------------------------------------------- */
 
 CoeffTable Fluid::coeff_table()
@@ -1002,14 +1005,14 @@ CoeffTable Fluid::coeff_table()
   const double inertia = smallest_inertia();
   const int n = atom->ntypes;
   const Eos eos = model->choice.eos;
-  // u + acting c, c, acting c, u, rho0/rho of the fluid, 1 of walls and 2 of bodies
+  // maxima of v + acting c, c, acting c, v, rho0/rho (0: no fluid), and 0 fluid, 1 wall, 2 body
   enum { SPEED, SOUND, ACTING, MOTION, THINNESS, KIND, NMOST };
   std::vector<double> mine(NMOST * (n + 1), 0.0), all(NMOST * (n + 1));
   const auto most = [n](std::vector<double> &of, int what, int type) -> double & {
     return of[what * (n + 1) + type];
   };
 
-  // in the place of type 0, which does not exist: of all types
+  // the place of type 0, which does not exist, has the maximum of all types
 
   double &fastest = most(mine, MOTION, 0);
   const auto sound_of = sound();
@@ -1091,7 +1094,7 @@ CoeffTable Fluid::coeff_table()
 }
 
 /* ----------------------------------------------------------------------
-   smallest reference density of particles of the fluid
+   Return the smallest reference density of the types of fluid particles, of all ranks; infinity without such particles.
 ------------------------------------------------------------------------- */
 
 double Fluid::lightest_fluid() const
@@ -1104,8 +1107,8 @@ double Fluid::lightest_fluid() const
 }
 
 /* ----------------------------------------------------------------------
-   with the heat that it has now; of fast sound, in which states stay as they are.  Walls of a liquid
-   have no heat.
+   Return the function (i, rho) with the speed of sound of owned particle i at density rho, with its heat as it is now and
+   its states frozen; c0 for walls of a liquid, which have no heat.
 ------------------------------------------------------------------------- */
 
 std::function<double(int, double)> Fluid::sound() const
@@ -1140,7 +1143,7 @@ int Fluid::number_of_heats()
 }
 
 /* ----------------------------------------------------------------------
-   per mass, of all particles that have one
+   Return the smallest moment of inertia per mass, length^2, of all particles that have one; else UNLIMITED_STEP.
 ------------------------------------------------------------------------- */
 
 double Fluid::smallest_inertia() const

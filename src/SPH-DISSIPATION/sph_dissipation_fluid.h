@@ -56,21 +56,20 @@ namespace SPHDissipation {
 
   // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
   // viscous forces between pairs, and a bulk force from the rate of change of the particle volume.
-  // It owns what the commands set, the pair loops, and the stages around them, and runs them in
-  // their order.  The pair style is LAMMPS's interface to it; fixes and computes get it from
-  // find_fluid().
+  // Owns the settings, the pair loops, and the stages around the loops, and runs the stages in their order.  The pair style
+  // is the interface of LAMMPS to this class; fixes and computes call find_fluid().
 
   class Fluid : protected Pointers {
    public:
-    // pair = of LAMMPS, which has the neighbor list and the communication; spins: particles rotate
+    // pair = the pair style, whose neighbor list and communication the fluid uses; spins: particles rotate
     Fluid(class LAMMPS *, Pair *, bool spins);
     ~Fluid() override;
 
     Pair *const pair;
     const bool spins;
-    const std::string style;    // of pair, atoms, and integrator, without suffix
+    const std::string style;    // name of pair, atom, and integrator style, without suffix
 
-    const std::unique_ptr<FluidModel> model;    // what the pair style's commands set
+    const std::unique_ptr<FluidModel> model;    // settings and coefficients
 
    protected:
     const std::unique_ptr<Engine> engine;
@@ -87,18 +86,18 @@ namespace SPHDissipation {
     const std::unique_ptr<PairEnergyStage> pair_energies;
 
    public:
-    // stages that fixes call directly.  A boundary or an open zone is registered until its fix is
-    // deleted; the fluid may be another one by then.
+    // Stages that fixes call directly.  A boundary or an open zone stays registered until its fix is deleted, maybe with a
+    // fluid that another one has replaced.
 
     const std::unique_ptr<OpenStage> open;
     const std::unique_ptr<BoundaryStage> boundary;
     const std::unique_ptr<ShiftStage> shift;
     const std::unique_ptr<NoiseStage> noise;
     const std::unique_ptr<ViscousStage> viscous;
-    const std::unique_ptr<TemperatureStage> temperature;    // of viscous as well
+    const std::unique_ptr<TemperatureStage> temperature;    // implicit conduction
 
-    // From the pair style: its commands; init() at the start of every run; derive_anew() after another
-    // command has changed coefficients
+    // Called by the pair style: for its commands; init() at the start of every run; derive_anew() after another command has
+    // changed coefficients: the next adopt() derives the parameters
 
     void settings(int narg, char **arg);
     void coeff(int narg, char **arg);
@@ -106,166 +105,163 @@ namespace SPHDissipation {
     virtual void request_list();    // after init()
     void derive_anew() { stale = true; }
     virtual void adopt();                               // before each compute()
-    Exchange &messages() const { return *exchange; }    // whose packing the pair style hands on
+    Exchange &messages() const { return *exchange; }    // packs the messages of the pair style
     virtual double memory_usage() const;                // bytes
 
-    // Forces: add them to those of LAMMPS, with a tally of each pair or nullptr; return the number of
-    // particles on this processor that are beyond the bound of the limit
+    // Add the forces to those of LAMMPS, with a tally of each pair or nullptr; return the number of particles on this
+    // processor that are beyond the bound of the limit
 
     virtual bigint compute(PairTally *);
 
-    // From the integrator: a run begins, with the states as a step of dt has left them, and with what has changed since the
-    // last one; such a step begins
+    // Called by the integrator when a run begins; dt = the time step that has left the states, Changes since the last run
 
     virtual void begin_run(double dt, bool continues, const Changes &);
-    // with density continuity: owned particles keep their densities where sums change that are not due to motion, of
-    // particles that come, go, split, or merge
+    // With density continuity: keep the densities of owned particles at the next forces, whose sums change not by motion,
+    // but by particles that come, go, split, or merge
     void keep_densities();
 
-    // with the diffusion of volume: steps from one evaluation of its rates to the next one; the last forces have evaluated
-    // them
+    // Steps between two evaluations of the diffusion of volume; true if the last forces have evaluated it
     int diffusion_interval() const;
     bool diffusion_is_new() const;
-    void begin_step(double dt);
-    // in the middle of a step, see ShiftStage::run()
+    void begin_step(double dt);    // advances the states
+    // In the middle of a step, see ShiftStage::run()
     virtual void shift_particles(double keep);
 
-    // Potential energy of the last forces, on this processor, added to those of the particles (nullptr: to none)
+    // Return the potential energy of the last forces, on this rank; add it to those of particles (nullptr: to none)
 
     double energy(double *each_atom) const;
 
-    // energy of the equation of state alone, on this processor: of the last forces, or where particles,
-    // with their ghosts, are now
+    // Return the energy of the equation of state alone, on this processor: of the last forces, or of the present places of
+    // the particles and their ghosts
 
     enum Moment { LAST_FORCES, NOW };
     virtual double elastic_energy(Moment);
 
-    // energy of pairs of unlike types, of the last forces, on this processor, of the particles of a group, half of each
-    // pair; whether any two types have one
+    // Return whether any two unlike types have an energy of their pairs; return this energy of the last forces, on this
+    // processor, of the particles of a group, half of each pair
 
     bool has_pair_energy() const;
     double pair_energy(int groupbit) const;
 
-    // energy that states hold on this processor, of particles of these groups
+    // Return the energy of the states of particles of these groups, on this processor
 
     double state_energy(int groupbits) const;
 
-    // Temperatures of owned particles, with their densities and energies as they are now; 0 of those that have no heat
-    // capacity, and of walls.  Give a temperature to those of a group and of its open zones, where particles, with their
-    // ghosts, are now, by function(particle); errors, in the name of the user, if it is negative or there is no heat
-    // capacity.
+    // Get the temperatures of owned particles from their present densities and energies; 0 of particles without heat
+    // capacity, and of walls.  Set the temperatures of particles of a group and of its open zones, at their present places,
+    // by function(particle); stop, with a message in the name of the user, if a temperature is negative or a type has no
+    // heat capacity.
 
     void temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
-    // of the last forces: see ForceStage::heating(); forces and torques on owned particles, without
-    // what other styles add
+    // Values of the last forces: heating, see ForceStage::heating(); forces and torques on owned particles, without those of
+    // other styles
 
     bool
-    has_forces() const;    // on all processors, for the particles that are there now; asked by all
+    has_forces() const;    // on all processors, for the particles that are there now; all must call
     virtual void heating(double *heat, double *power) const;
-    static int number_of_heats();                        // by channel
+    static int number_of_heats();                        // numbers in power, one per channel
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
     const ForceSum *own_forces() const;
     const double *own_torque(int i) const;
 
-    // Start of a run, from the integrator.  Masses of the particles of a group, times a factor of each
-    // type, for which their mean density is rho0; volumes, from the positions alone; then the table of
-    // viscosities, coefficients, and time steps if the coefficients are new, checks, and warnings, with
-    // the particles and their properties as they enter the first step
+    // Called by the integrator at the start of a run.  Multiply the masses of a group by a factor for each type that makes
+    // its mean density rho0; find the volumes from the positions alone; check and warn of the particles as they enter the
+    // first step, and log the table of viscosities, coefficients, and time steps if the coefficients are new
 
     void set_mean_density(int groupbit);
     void find_volumes();
     void announce();
 
-    // before the first forces of a run that may continue the last one: one of the integrators begins anew; on any rank,
-    // what the fluid touches moves otherwise
+    // Before the first forces of a run that may continue the last one: note that one of the integrators begins anew, or, on
+    // any rank, that walls or open ends move in another way
 
     void begin_anew() { continued = false; }
     void note_change() { changed = true; }
 
-    bool is_set_up() const;    // what the commands say is in effect
+    bool is_set_up() const;    // init() has run since the last pair_style and pair_coeff
 
     // particles and types
 
     int not_fluid() const;            // bits of the groups of all boundaries and open zones
     bool is_boundary(int i) const;    // owned or ghost particle
     bool has_type(int type) const;    // its particles are of this fluid
-    // of the owned particles as they are now: speed of sound of particle i if it had this density
+    // Return the function with the speed of sound of owned particle i, as it is now, at another density
     std::function<double(int i, double rho)> sound() const;
     int dimension() const { return dim; }    // of the kernel
-    Threads &team() const;                   // that share its work
+    Threads &team() const;                   // threads that share the work of the loops
     double support_radius() const { return support; }
 
-    // of the fluid as it is now: largest stable time steps; time in which a particle falls by the length
-    // that stability knows, at least
+    // Of the fluid as it is now: return the largest stable time steps; return the smallest sqrt(h/a) with the stability
+    // length h and the accelerations a of particles of the fluid, UNLIMITED_STEP if there are none
 
     CoeffTable coeff_table();
     double fall_time() const;
-    void check_time_step(const CoeffTable &);    // warning about one that is too large
+    void check_time_step(const CoeffTable &);    // warns once of each time step that is too large
 
    protected:
     int dim = 0;              // dimension of the kernel
     double support = 0.0;     // support radius rc
-    bool stale = false;       // what follows from the coefficients is to be derived anew
-    bool own_list = false;    // the neighbor list is not built by LAMMPS, but when it is needed
+    bool stale = false;       // adopt() must derive the parameters from the coefficients
+    bool own_list = false;    // NeighborSearch builds the neighbor list, not LAMMPS
 
-    // run a task on the particles and the half neighbor list of the host; it may set densities and masses
+    // Run a task on the particles and the half neighbor list of the host; the task may set densities and masses
 
     virtual void on_host(const std::function<void()> &task) { task(); }
 
-    // the same for a report, which needs the pairs of the last forces
+    // Run a report, which needs the pairs of the last forces on the host
 
     virtual void for_report(const std::function<void()> &task) { task(); }
 
-    NeighList *neighbors();    // half, of the particles as they are now
+    NeighList *neighbors();    // half list of the particles at their present places
 
-    // what compute() consists of, on the host; another one may do each of them elsewhere.  set_pressure()
-    // returns the number of owned particles that are beyond the bound of the limit
+    // Parts of compute(), on the host; FluidKokkos runs them on a device.  set_pressure() returns the number of owned
+    // particles that are beyond the bound of the limit
 
     virtual void sum_density();
-    virtual void set_step(double dt);    // of the states
+    virtual void set_step(double dt);    // for the numbers of the states
     virtual void advance_states();
     virtual void sum_bound();
-    virtual void set_reference_volume();    // of boundary particles
+    virtual void set_reference_volume();    // for boundary particles
     virtual bigint set_pressure();
     virtual void set_boundary();
     virtual void sum_forces(PairTally *, const StepPlan &);
-    virtual void sum_flows();             // of conduction
+    virtual void sum_flows();             // conduction and other flows
     virtual void evaluate_diffusion();    // of volume
     virtual void add_diffusion_heat();
-    virtual double wall_energy(double *each_atom) const;    // as energy()
+    virtual double wall_energy(double *each_atom) const;    // see energy()
 
     virtual bool has_own_forces() const;    // on this processor
     void report();
     double missing_time() const;
     bool
-    at_rest() const;    // strains are zero: in a minimization; in a rerun, which does not know them
+    at_rest() const;    // strains are zero: in a minimization, and in a rerun, which has no strains
     double **extrapolated_spin() const;    // nullptr without spins
     int integrated = 0;                    // bits of the groups of its integrators
-    // what is checked at the next neighbor list, of the particles
+    // true if the next neighbor list checks the speeds, or the expansion, of the particles
     bool checks_speed() const;
     bool checks_expansion() const;
 
    private:
-    bool set_up = false;       // since pair_style and pair_coeff
-    bool announced = false;    // the table of coefficients is up to date
+    bool set_up = false;       // init() has run since the last pair_style or pair_coeff
+    bool announced = false;    // the table in the log has the present coefficients
     bool continued =
         false;               // the run continues the last one, with the velocities of its last step
-    bool touched = false;    // by a command, which may have given the same coefficients
+    bool touched = false;    // a command has set coefficients, maybe to the same values
     bool follows =
         false;    // the first forces of the run change densities as their sums have changed
-    std::vector<double> densities_before;    // such forces, of owned particles
+    std::vector<double> densities_before;    // densities of owned particles before such forces
     bool changed =
-        false;    // other coefficients, or motions of walls, than those of the last forces
-    double warned_step = 0.0;      // the time step that the last warning was about
-    double noise_step = 0.0;       // the time step that was announced with the noise
-    bool checks_places = false;    // at the first forces of a run
-    bigint shared_places = 0;      // pairs of particles in the same place that a warning was about
-    int fast_lists = 0;    // neighbor lists in a row with fast particles; -1: there was a warning
-    bool expanded = false;      // there was a warning
-    double look_after = 0.0;    // time to the next look at the motion of a fluid from rest, or 0
-    double moving = 0.0;        // time since the last one
+        false;    // coefficients, or motions of walls, differ from those of the last forces
+    double warned_step = 0.0;      // time step of the last warning
+    double noise_step = 0.0;       // time step of the last line about the noise in the log
+    bool checks_places = false;    // the next forces, the first of a run, check_places()
+    bigint shared_places = 0;      // pairs of particles in the same place at the last check
+    int fast_lists = 0;       // neighbor lists in a row with fast particles; -1: after the warning
+    bool expanded = false;    // check_expansion() has warned
+    double look_after = 0.0;    // time until check_elasticity() runs again; 0: never
+    double moving = 0.0;        // time since check_elasticity() ran
 
     void check_setup();
     void check_places();
@@ -279,7 +275,7 @@ namespace SPHDissipation {
     void derive_coeffs();
     bigint sum_before_forces(StepPlan &, bool find_rates = true);
     void find_viscosities(bool find_rates);
-    const double *bound() const;    // of the limit, nullptr without
+    const double *bound() const;    // of LimitStage, by particle; nullptr without limit
     void sum_diffusion();
     void find_viscous_velocity(StepPlan &);
     void find_temperature();
@@ -287,7 +283,7 @@ namespace SPHDissipation {
     double smallest_inertia() const;
     double lightest_fluid() const;
     std::string skin_text(const CoeffTable &) const;
-    std::function<double(int i)> pressures() const;    // of owned particles, with that of states
+    std::function<double(int i)> pressures() const;    // of owned particle i, with its states
     void announce_noise(double rate);
   };
 

@@ -36,8 +36,8 @@ using Words = std::vector<std::string>;
 static constexpr double GAS_CONSTANT = 8.31446261815324;    // J/(mol K), exact since 2019
 
 /* ----------------------------------------------------------------------
-   one line of any length; false at the end of the file
-   (LAMMPS's readers cut long lines and do not number them)
+   Read one line of any length; return false at the end of the file.  (LAMMPS's readers cut long lines and do not number
+   them.)
 ------------------------------------------------------------------------- */
 
 static bool read_line(FILE *fp, std::string &line)
@@ -59,7 +59,7 @@ static bool contains(const Words &words, const std::string &word)
 }
 
 /* ----------------------------------------------------------------------
-   columns that a file names: any, in any order, with all that a fluid needs
+   Return the columns that a file names, in any order; stop if a needed column is missing.
 ------------------------------------------------------------------------- */
 
 static Words named_columns(LAMMPS *lmp, const std::string &where, const Words &words)
@@ -82,7 +82,7 @@ static Words named_columns(LAMMPS *lmp, const std::string &where, const Words &w
 }
 
 /* ----------------------------------------------------------------------
-   the fluid of one line; - is a value that it does not have
+   Return the fluid of one line; the word - stands for a missing value.
 ------------------------------------------------------------------------- */
 
 static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Words &columns,

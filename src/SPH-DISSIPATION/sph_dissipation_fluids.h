@@ -22,20 +22,20 @@ class LAMMPS;
 
 namespace SPHDissipation {
 
-  // one line of a file of fluids, in the units that the file declares
+  // One line of a file of fluids, in the units that the file declares
 
   struct FluidLine {
     double rho;                   // density
     double c;                     // sound speed, of frequency 0
     double mu;                    // shear viscosity
-    double kappa;                 // bulk viscosity, without that of the processes
+    double kappa;                 // bulk viscosity, without that of relaxing processes
     std::vector<double> relax;    // kappa_r and tau of each relaxing process
   };
 
-  // Read the fluid called name from a file of fluids, see potentials/fluids.sph and gases.sph, which names
-  // its columns; a gas has the density and the sound speed of an ideal gas.  Called by all ranks, rank 0
-  // reads.  Errors name the file and the line: a word that is not a number, a value that no fluid can have, a
-  // missing column, a name that stands twice or not at all, other units.
+  // Return the fluid called name from a file of fluids, which names its columns, see potentials/fluids.sph and gases.sph; a
+  // gas has the density and the sound speed of an ideal gas.  All ranks call, rank 0 reads.  Errors name the file and the
+  // line: a word that is not a number, an inadmissible value, a missing column, a name that occurs twice or never, other
+  // units.
 
   FluidLine read_fluid(LAMMPS *, const std::string &file, const std::string &name);
 

@@ -14,8 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_FUNCTION_H
 #define LMP_SPH_DISSIPATION_FUNCTION_H
 
-// Formulas that run on a GPU, too, are SPH_FUNCTION: where the headers of Kokkos have been included
-// before, the compiler makes them for both.
+// Formulas that also run on a GPU are SPH_FUNCTION: after the headers of Kokkos, the compiler makes them for both.
 
 #ifdef KOKKOS_INLINE_FUNCTION
 #define SPH_FUNCTION KOKKOS_INLINE_FUNCTION
@@ -23,8 +22,8 @@
 #define SPH_FUNCTION inline
 #endif
 
-// Functions that the pair loops call for every pair are SPH_INLINE: the loops are long, and one
-// file has many of them, so that compilers would stop inlining.  Those that no GPU runs are SPH_HOST_INLINE.
+// Functions that the pair loops call for every pair are SPH_INLINE, or SPH_HOST_INLINE if no GPU runs them: one file has
+// many long loops, in which compilers would otherwise stop inlining.
 
 #ifdef __GNUC__
 #define SPH_HOST_INLINE inline __attribute__((always_inline))
@@ -45,8 +44,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Powers and roots of numbers with a unit.  Another unit, of a power of two, changes no digit of them; it changes
-  // digits of pow() and cbrt().
+  // Powers and roots whose digits do not change with units that differ by powers of two, as those of pow() and cbrt() do.
 
   SPH_FUNCTION double whole_power(double x, int n)
   {
@@ -63,7 +61,7 @@ namespace SPHDissipation {
     return ldexp(cbrt(ldexp(part, rest)), (exponent - rest) / 3);
   }
 
-  // spacing of particles of this volume on a square or cubic lattice, and its square
+  // Return the spacing of particles of this volume on a square or cubic lattice; return its square
 
   SPH_FUNCTION double spacing_of(int dim, double volume)
   {

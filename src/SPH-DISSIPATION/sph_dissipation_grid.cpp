@@ -71,7 +71,7 @@ bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield
     origin[d] = domain->boxlo[d] + 0.5 * spacing[d];
   }
 
-  // 1, r and r r of each point, if needed
+  // moments of each point: 1 and, if linear, r and r r
 
   const int nmoment = smoothing.linear ? 1 + dim + dim * (dim + 1) / 2 : 1;
   moments.assign(nmoment, std::vector<double>(points, 0.0));
@@ -89,8 +89,8 @@ bigint ParticleGrid::map(const Smoothing &smoothing, double **values, int nfield
 }
 
 /* ----------------------------------------------------------------------
-   function(index of the first point, number of points, r) for the owned points around a place, row
-   by row; r = first point - place
+   Call function(index of the first point, number of points, r) for each row of owned points around a place; r = first point
+   - place.
 ------------------------------------------------------------------------- */
 
 template <class Function>
@@ -123,8 +123,8 @@ void ParticleGrid::near_rows(const double *place, double radius, Function &&func
 }
 
 /* ----------------------------------------------------------------------
-   V W (but for the norm of the kernel, which drops out) of the points of a row, and their distances
-   along it; lengths in support radii
+   Set weight to V W (but for the norm of the kernel, which drops out) of the points of a row, and offset to their distances
+   along it; lengths in support radii.
 ------------------------------------------------------------------------- */
 
 template <class KernelShape>
@@ -142,8 +142,8 @@ void ParticleGrid::weigh_row(const Smoothing &smoothing, double volume, double f
 }
 
 /* ----------------------------------------------------------------------
-   call function(i, point, n, ry, rz) for each particle i and row of n points in its support, with their weights set;
-   r = particle - point in support radii, rx = -offset
+   Call function(i, point, n, ry, rz) for each particle i and row of n points in its support, with weight and offset set;
+   r = particle - point in support radii, rx = -offset.
 ------------------------------------------------------------------------- */
 
 template <class KernelShape, class Function>
@@ -163,7 +163,7 @@ void ParticleGrid::weigh_rows(const Smoothing &smoothing, double **values, Funct
 }
 
 /* ----------------------------------------------------------------------
-   1, r, r r of the particles around each point, r = particle - point in support radii
+   Sum the moments 1, r, r r over the particles around each point, r = particle - point in support radii.
 ------------------------------------------------------------------------- */
 
 template <class KernelShape>
@@ -192,9 +192,8 @@ void ParticleGrid::sum_moments(const Smoothing &smoothing, double **values)
 }
 
 /* ----------------------------------------------------------------------
-   Put into the place of the moments of each point the coefficients a of the weights
-   V W (a_0 + a.r) of its particles; returns the number of points without particles.
-   With the mean distance b of the particles and their covariance C: a = -C^-1 b and
+   Replace the moments of each point by the coefficients a of the weights V W (a_0 + a.r) of its particles; return the number
+   of points without particles.  With the mean distance b of the particles and their covariance C: a = -C^-1 b and
    a_0 = 1 + b C^-1 b, over the sum of V W.
 ------------------------------------------------------------------------- */
 
@@ -297,7 +296,7 @@ GridCompute::~GridCompute()
 }
 
 /* ----------------------------------------------------------------------
-   Make the grid anew where the sub-domains have changed: replicate does not call reset_grid().
+   Make a new grid if the sub-domains have changed: replicate does not call reset_grid().
 ------------------------------------------------------------------------- */
 
 void GridCompute::init()
@@ -312,7 +311,7 @@ void GridCompute::init()
 }
 
 /* ----------------------------------------------------------------------
-   Look the fluid up at every use, for the pair style may have been replaced.
+   Return the fluid of the present pair style, which may have replaced another one.
 ------------------------------------------------------------------------- */
 
 Fluid *GridCompute::fluid() const
@@ -321,7 +320,7 @@ Fluid *GridCompute::fluid() const
 }
 
 /* ----------------------------------------------------------------------
-   Make the grid anew, after a change of the sub-domains.
+   Make a new grid, after a change of the sub-domains.
 ------------------------------------------------------------------------- */
 
 void GridCompute::reset_grid()

@@ -30,9 +30,9 @@ namespace SPHDissipation {
   class Fluid;
   class Keywords;
 
-  // Values of points from those of particles: averages weighted by V W, or the weighted linear
-  // regression through the particles, which is exact for linear fields (moving least squares: P.
-  // Lancaster, K. Salkauskas, Math. Comput. 37, 141 (1981)).
+  // Values of points from those of particles: averages weighted by V W, or (linear) the weighted linear regression through
+  // the particles, which is exact for linear fields (moving least squares: P. Lancaster, K. Salkauskas, Math. Comput. 37,
+  // 141 (1981)).
 
   struct Smoothing {
     Kernel kernel;
@@ -40,17 +40,17 @@ namespace SPHDissipation {
     bool linear;
   };
 
-  // Points in the centers of the cells of a regular grid over the box, each on the processor in whose
-  // sub-domain it is: so owned and ghost particles are all that a point needs, and no values of points
-  // are communicated.  In the dimension of the simulation, for orthogonal boxes.
+  // Points in the centers of the cells of a regular grid over the box, each on the processor of its sub-domain: so a point
+  // needs owned and ghost particles only, and no values of points are communicated.  In the dimension of the simulation, for
+  // orthogonal boxes.
 
   class ParticleGrid : protected Pointers {
    public:
     ParticleGrid(class LAMMPS *, const int *count);
     ~ParticleGrid() override;
 
-    // Volume and values of each owned and ghost particle: values[i][0] > 0 if the particle counts, then
-    // nfield values.  Returns how many points of all processors have no particle in reach: they get 0.
+    // Map the values of owned and ghost particles to the points.  values[i] = volume, > 0 if the particle counts, then
+    // nfield values.  Return the number of points, of all processors, without a particle in reach: they get 0.
 
     bigint map(const Smoothing &, double **values, int nfield);
     const double *field(int k) const    // at the owned points, the first index fastest
@@ -58,7 +58,7 @@ namespace SPHDissipation {
       return fields[k].data();
     }
 
-    bool fits() const;    // on this processor, the sub-domain is still that of the points
+    bool fits() const;    // the sub-domain of this processor is still that of the points
 
     bigint npoint() const { return points; }    // owned
     Grid2d *lammps_grid2d() const { return grid2d.get(); }
@@ -69,8 +69,8 @@ namespace SPHDissipation {
     }
 
     int count[3];                              // points of the box
-    int lo[3] = {}, hi[3] = {};                // the owned ones
-    int ghost_lo[3] = {}, ghost_hi[3] = {};    // with those that LAMMPS calls ghosts, unused here
+    int lo[3] = {}, hi[3] = {};                // range of the owned points
+    int ghost_lo[3] = {}, ghost_hi[3] = {};    // range with LAMMPS's ghost points, unused here
 
    private:
     const int dim;
@@ -78,7 +78,7 @@ namespace SPHDissipation {
     std::unique_ptr<Grid2d> grid2d;
     std::unique_ptr<Grid3d> grid3d;
 
-    double origin[3] = {}, spacing[3] = {};    // places of the points, as the box is now
+    double origin[3] = {}, spacing[3] = {};    // of the points, in the present box
     std::vector<std::vector<double>> moments, fields;
     std::vector<double> weight, offset;    // points of one row around a particle
 
@@ -101,8 +101,8 @@ namespace SPHDissipation {
 
     static bool available();
 
-    // amplitudes a_k of f = sum_k a_k exp(i k.x), x from the first point: mode (i,j,k) of the box is
-    // where the point (i,j,k) is, i.e. on the processor and at the place in the array
+    // Find the amplitudes a_k of f = sum_k a_k exp(i k.x), x from the first point: mode (i,j,k) of the box is on the
+    // processor and at the place in the array of the point (i,j,k)
 
     void transform(const double *field, std::complex<double> *modes);
     double memory_usage() const;
@@ -112,8 +112,8 @@ namespace SPHDissipation {
     std::unique_ptr<Plan> plan;
   };
 
-  // A compute of the fluid on a grid: compute ID group style Nx Ny Nz ... order 0|1.  It makes the grid
-  // and maps values of the particles to it.
+  // A compute of the fluid on a grid: compute ID group style Nx Ny Nz ... order 0|1.  Makes the grid and maps values of the
+  // particles to the grid.
 
   class GridCompute : public Compute {
    public:
@@ -133,13 +133,13 @@ namespace SPHDissipation {
     bool linear = true;    // order 1
     std::unique_ptr<ParticleGrid> grid;
 
-    bool add_value(const std::string &);    // a value of the particles to map; false if unknown
+    bool add_value(const std::string &);    // adds a value to map; false if unknown
     int nvalue() const { return static_cast<int>(names.size()); }
-    void read_order(Keywords &);    // keyword order, if it is that one
+    void read_order(Keywords &);    // reads keyword order
 
     Fluid *fluid() const;
     bool is_mapped(const Fluid *, int) const;    // owned particle
-    bigint map();    // all values, to ParticleGrid::field(); points without particles, of all ranks
+    bigint map();    // maps all values; returns # of points without particles, of all ranks
 
    private:
     using Value = double (*)(const Atom *, int);

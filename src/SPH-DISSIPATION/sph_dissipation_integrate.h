@@ -23,9 +23,9 @@ namespace SPHDissipation {
 
   struct TimeStep {
     double dtv, dtf;
-    double keep;             // 0: the extrapolated velocity is the increment alone
-    double extrapolation;    // of the velocity over half a step
-    bool balanced;           // the forces are random
+    double keep;             // 1; or 0: the extrapolated velocity is the increment alone
+    double extrapolation;    // increments of half a step by which vest goes beyond the middle
+    bool balanced;           // temp energy: internal energies get half of the rate at each end
 
     // Begin or end the step of particle i, kick it only, or set its extrapolated quantities as without forces.
     // Particles: arrays, on host or device, as functions of i and the direction; without spins some are empty.
@@ -71,17 +71,17 @@ namespace SPHDissipation {
       for (int d = 0; d < 3; d++) p.omegaest(i, d) = p.omega(i, d);
     }
 
-    // without inertia a particle keeps its spin, and must have no torque
+    // Return 1/(mass * inertia), or 0: without inertia a particle keeps its spin, and must have no torque
 
     SPH_FUNCTION static double inverse_inertia(double mass, double inertia)
     {
       return (inertia > 0.0) ? 1.0 / (mass * inertia) : 0.0;
     }
 
-    // The internal energy, too, is extrapolated to the end of the step, so that the pressure of an
-    // ideal gas is accurate to second order in the time step; the end corrects it with the new rate.
-    // With random forces, which cannot be extrapolated, it gets half of the rate at each end of the
-    // step. At the end, rate_before becomes the rate that this has added, for a run that continues.
+    // Extrapolate the internal energy to the end of the step, so that the pressure of an ideal gas is accurate to second
+    // order in the time step; end_energy() corrects it with the new rate.  balanced: with random forces, which cannot be
+    // extrapolated, the energy gets half of the rate at each end of the step.  end_energy() sets rate_before to the energy
+    // that it has added, for a run that continues.
 
     SPH_FUNCTION void begin_energy(double rate, double &energy, double &rate_before) const
     {
@@ -95,15 +95,14 @@ namespace SPHDissipation {
     }
   };
 
-  // Diffusion of volume, at constant strains.  As internal energies, volumes get the old rate in a step, and at its end half
-  // of the change of this rate; but this half only when the next step begins, so that between steps densities are those of
-  // the forces.
+  // Diffusion of volume, at constant strains.  As internal energies, volumes get the old rate in a step, and half of the
+  // change of the rate later: when the next step begins, so that between steps densities are those of the forces.
 
   struct VolumeStep {
-    double dt, interval;    // of the step; from one evaluation of the rates to the next one
+    double dt, interval;    // time step; time between two evaluations of the rates
     bool is_new;            // the last forces have evaluated them
 
-    // arrays of owned particles, on host or device
+    // Arrays of owned particles, on host or device
 
     double *rho = nullptr;
     const double *rmass = nullptr, *rate = nullptr;

@@ -38,7 +38,7 @@ namespace SPHDissipation {
 
   constexpr double KERNEL_PI = 3.14159265358979323846;
 
-  // surface of the unit sphere in n = 1, 2, 3 dimensions
+  // Return the surface of the unit sphere in n = 1, 2, 3 dimensions
 
   inline double unit_sphere_surface(int n)
   {
@@ -56,7 +56,7 @@ namespace SPHDissipation {
     });
   }
 
-  // W(r) and F(r) = -(1/r) dW/dr of one pair; the pair loops use shape() and slope() directly
+  // Return W(r), and F(r) = -(1/r) dW/dr, of one pair; the pair loops use shape() and slope() directly
 
   inline double kernel_weight(Kernel kernel, int n, double r, double support)
   {
@@ -78,9 +78,8 @@ namespace SPHDissipation {
     });
   }
 
-  // integral of integrand(q) q^(n-1) over the unit n-ball of the kernels, surface included.
-  // Gauss-Legendre with 8 points on each sixth of [0,1]: exact for every kernel above,
-  // whose pieces join at multiples of 1/6 and stay below degree 16.
+  // Return the integral of integrand(q) over the unit n-ball, by Gauss-Legendre with 8 points on each sixth of [0,1]: exact
+  // for every kernel above, whose pieces join at multiples of 1/6 and stay below degree 16.
 
   template <class Function> double unit_ball_integral(int n, Function &&integrand)
   {
@@ -102,7 +101,8 @@ namespace SPHDissipation {
     return unit_sphere_surface(n) * sum / (2.0 * PANELS);
   }
 
-  // integral of r^power W; <r> is in the weight F r of P1 (15) and (49), <r^2> in the weight F r^2
+  // Return the integral of r^power W, power = 1 or 2; <r> is in the weight F r of P1 (15) and (49), <r^2> in the weight F
+  // r^2
 
   inline double kernel_mean(Kernel kernel, int n, int power, double support)
   {
@@ -114,11 +114,11 @@ namespace SPHDissipation {
     return (power == 2) ? support * support * mean : support * mean;
   }
 
-  // Kernel of the energy of pairs of unlike types, W = norm (1 - q^2)^2: its force is small at short distances, so that
-  // the energy of an interface hardly depends on how the particles next to it are arranged.
-  // Particles at a plane stand in rows, of distance d = V^(1/n), half of it from the plane.  The sum over the rows is less
-  // than the integral of z W_1(z), with W_1 the integral of W over a plane: by d^2 W_1(0)/12, the first term of Euler and
-  // Maclaurin, or by the part ROWS d^2/R^2 of it.
+  // Kernel of the energy of pairs of unlike types, W = norm (1 - q^2)^2: the force is small at short distances, so that the
+  // energy of an interface hardly depends on the arrangement of the particles next to it.
+  // Particles at a plane form rows at the distance d = V^(1/n), the first one d/2 from the plane.  The sum over the rows is
+  // less than the integral of z W_1(z), with W_1 the integral of W over a plane: by d^2 W_1(0)/12, the first term of Euler
+  // and Maclaurin, which is the part ROWS d^2/R^2 of the integral.
 
   struct PairEnergyKernel {
     double weight_norm, slope_norm, support_sq_inv, rows;
@@ -138,10 +138,10 @@ namespace SPHDissipation {
       return weight_norm * rest * rest;
     }
     double slope(double rsq) const { return slope_norm * (1.0 - rsq * support_sq_inv); }
-    // what rows of particles of these distances V^(1/n) lack, as a factor
+    // Return the factor that corrects the sum over rows of particles with these distances V^(1/n)
     double of_rows(double d_i, double d_j) const { return 1.0 + rows * d_i * d_j; }
 
-    // integral of |z| W, length
+    // Return the integral of |z| W, a length
     static double mean_distance(int n, double support)
     {
       constexpr double MEAN[] = {0.0, 5.0 / 16.0, 32.0 / (35.0 * KERNEL_PI), 35.0 / 128.0};
@@ -171,7 +171,7 @@ namespace SPHDissipation {
     return sum;
   }
 
-  // integral of F, units 1/length^2: 14/R^2 for Wendland C2 in 2 and 3 dimensions
+  // Return the integral of F, 1/length^2: 14/R^2 for Wendland C2 in 2 and 3 dimensions
 
   inline double kernel_slope_integral(Kernel kernel, int n, double support)
   {
@@ -184,8 +184,8 @@ namespace SPHDissipation {
         (support * support);
   }
 
-  // Fourier transform of W, the integral of W(r) exp(i k.r): 1 for k = 0.  Of a shell of radius r it is
-  // cos(k r), J_0(k r), sin(k r)/(k r) in 1, 2, 3 dimensions.
+  // Return the Fourier transform of W, the integral of W(r) exp(i k.r), 1 for k = 0.  That of a shell of radius r is cos(k
+  // r), J_0(k r), sin(k r)/(k r) in 1, 2, 3 dimensions.
 
   inline double kernel_transform(Kernel kernel, int n, double k, double support)
   {

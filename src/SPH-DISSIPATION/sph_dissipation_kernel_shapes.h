@@ -11,10 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The formulas of the smoothing kernels, see sph_dissipation_kernel.h, for one distance q or, in the
-// pair loops, for a vector of them.  Included in more than one namespace, hence without guard and
-// without a namespace of its own: functions that take vectors must be compiled for the processor
-// that has them.
+// The formulas of the smoothing kernels, see sph_dissipation_kernel.h, for one distance q or, in the pair loops, for a
+// vector of distances.  Included in more than one namespace, hence without guard and namespace: functions that take vectors
+// must be compiled for a processor with these vectors.
 
 struct WendlandC2 {
   static constexpr const char *name = "wendland/c2";
@@ -140,7 +139,7 @@ struct QuinticSpline {
   }
 };
 
-// call function(KernelClass()) for the kernel chosen at run time, on the host
+// Call function(KernelClass()) for the kernel chosen at run time, on the host
 
 template <class Function> SPH_HOST_INLINE auto with_kernel(Kernel kernel, Function &&function)
 {

@@ -11,11 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The two pair loops, compiled once per instruction set: a source file includes what stands
-// below, switches the compiler to the instruction set, defines LOOPS, their namespace, LOOPS_SET and its
-// LOOPS_NAME, and includes this file.
-// Nothing else may be included after the switch, or inline functions of other headers would be
-// compiled for a processor that a user may not have.
+// The pair loops, compiled once per instruction set: a source file includes the headers below, switches the compiler to the
+// instruction set, defines LOOPS (the namespace), LOOPS_SET and LOOPS_NAME, and includes this file.  Include nothing else
+// after the switch: inline functions of other headers would be compiled for a processor that a user may not have.
 
 #include "sph_dissipation_simd.h"
 #include "sph_dissipation_words.h"
@@ -27,7 +25,7 @@ namespace SPHDissipation {
 #include "sph_dissipation_kernel_shapes.h"
 #include "sph_dissipation_pair_terms.h"
 
-    // pass 2 has the processor fetch the rows of the neighbors that come two blocks later
+    // Fetch the rows of the neighbors two blocks ahead into the cache
 
     constexpr int AHEAD = 2 * LANES;
 
@@ -36,7 +34,7 @@ namespace SPHDissipation {
       for (int l = 0; l < LANES; l++) prefetch(at<N>(row, j[l + AHEAD]));
     }
 
-    // particles and sums as rows of numbers
+    // Particles and sums as rows of numbers
 
     template <class Row> constexpr int WIDTH = sizeof(Row) / sizeof(double);
 
@@ -49,12 +47,13 @@ namespace SPHDissipation {
       return reinterpret_cast<double *>(row);
     }
 
-    // Pass 2 computes F of pairs without spins again: with wide vectors this is faster than by way of the memory
+    // Pass 2 computes F of pairs without spins again: with wide vectors this is faster than reading it from memory
 
     constexpr bool COMPUTES_SLOPES = LANES == 8;
 
-    // pass 1: c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED
-    // W and F are zero at the support, and so where particles are farther apart, as spare ones are
+    // Pass 1: sum c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED; leave the pairs, with
+    // SLOPES F, and with SQUARES F (e.u)^2 (mg/fr2: F (r.u)^2).  q is at most 1, where W and F are zero, also for spare
+    // particles
 
     template <class K, bool WEIGHTED, bool SLOPES, bool SQUARES> void density_loop(LoopData &data)
     {
@@ -127,7 +126,7 @@ namespace SPHDissipation {
       for (int k = 0; k < AHEAD; k++) data.neighbor[next + k] = offset_of(data.spare);
     }
 
-    // cdot of pass 1 alone, by the pairs that it has left
+    // Sum cdot alone, by the pairs of pass 1
 
     template <bool WEIGHTED> void rate_loop(LoopData &data)
     {
@@ -162,7 +161,7 @@ namespace SPHDissipation {
       }
     }
 
-    // sum_j V_j F (e.u)^2, with mg/fr2 (r.u)^2, by the pairs of pass 1
+    // Sum V_j F (e.u)^2 over j, with mg/fr2 V_j F (r.u)^2, by the pairs of pass 1
 
     inline void shear_rate_loop(const LoopData &data, const double *vol, double *rate)
     {
@@ -182,8 +181,8 @@ namespace SPHDissipation {
       }
     }
 
-    // Coefficients of all types, N numbers of a Row for each two of them
-    // Those of type i with all others are in one vector each if there are at most as many types as lanes.
+    // Coefficients of all pairs of types, a Row of N numbers for each pair.  With at most as many types as lanes, one vector
+    // has a number of type i with all types.
     template <class Row> struct CoeffTable {
       static constexpr int N = WIDTH<Row>;
       const Row *const row;
@@ -204,7 +203,7 @@ namespace SPHDissipation {
       }
     };
 
-    // Coefficients of a block of pairs, of which a loop uses some; before load() those of type 1
+    // Coefficients of a block of pairs, those that Used::uses(); before load() the coefficients of type 1
     template <class Row, class Used> struct Coeffs {
       static constexpr int N = WIDTH<Row>;
       Vec a[N];
@@ -246,7 +245,7 @@ namespace SPHDissipation {
 
 #include "sph_dissipation_noise_loops.h"
 
-    // F of pairs as pass 1 computes it
+    // Computes F of pairs as pass 1 does
 
     struct PairSlope {
       const Kernel kernel;
@@ -269,7 +268,7 @@ namespace SPHDissipation {
       };
     };
 
-    // positions and velocities of a block of pairs; volume and g of the neighbors; slope_of(r^2) is F
+    // Load a block of pairs, with volume and g of the neighbors; return F = slope_of(r^2)
 
     template <class Form, class Slope>
     SPH_INLINE Vec load_pair(PairState &pair, const Particle &pi, const Particle *particle,
@@ -287,7 +286,7 @@ namespace SPHDissipation {
       const Vec rsq = dot(pair.r, pair.r), slope = slope_of(rsq);
       pair.vv = volumes_slope(rsq, pi.vol, vol, slope);
       pair.approach = dot(pair.r, pair.u);
-      const Vec nothing = all(-0.0);    // to which compilers add without an instruction
+      const Vec nothing = all(-0.0);    // compilers drop an addition to -0
       pair.heat[0] = Form::heats(0) ? nothing : all(0.0);
       for (int c = 1; c < NCHANNEL; c++)
         if (Form::heats(c)) pair.heat[c] = nothing;
@@ -296,8 +295,8 @@ namespace SPHDissipation {
       return slope;
     }
 
-    // all heat of pairs with a boundary to the fluid; a function of its own, with a copy of the pair, or the loops would keep the
-    // pairs of all rows in memory
+    // Give the fluid all heat of pairs with a boundary.  Not inline and with a copy of the pair: otherwise the loops would
+    // keep the pairs of all rows in memory
 
     template <class Form>
     SPH_NOINLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i,
@@ -318,8 +317,8 @@ namespace SPHDissipation {
       add_boundary_heat<Form>(pair, more, own.is_boundary + other[3]);
     }
 
-    // torque, and heat of all channels but the first: to the neighbors and to the totals of the particle, in the columns
-    // of ChannelSums
+    // Sums of torque, and of heat of all channels but the first, in the columns of ChannelSums: adds to the rows of the
+    // neighbors and to the totals of particle i
 
     template <class Form> struct SideSums {
       static constexpr ChannelColumns COLUMNS = {Form::SPINS, Form::channels()};
@@ -356,18 +355,18 @@ namespace SPHDissipation {
     template <class Form> SPH_INLINE void fetch_ahead(const LoopData &data, const Offset *j)
     {
       fetch_ahead<WIDTH<Particle>>(numbers(data.particle), j);
-      if constexpr (Form::SPINS) {    // without, the force is in the cache anyway
+      if constexpr (Form::SPINS) {    // without spins, the force is in the cache anyway
         fetch_ahead<WIDTH<Spin>>(numbers(data.spin), j);
         fetch_ahead<WIDTH<ForceSum>>(numbers(data.force), j);
         fetch_ahead<SideSums<Form>::N>(data.side, j);
       }
     }
 
-    // pass 2: forces and torques of the pressure and of the channels, and their heat, half to each partner
+    // Pass 2: sum forces and torques of the pressure and of the channels, and their heat, half to each partner
     // Form: the terms of the pairs
-    // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, by
-    // which it heats; the form P1 (18) acts through g and heats by cdot
-    // Noise: random forces and torques of the pairs; Noise::ENERGY: what they do to the motion comes out of the heat
+    // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, for its heat; the form
+    // P1 (18) acts through g and heats by cdot
+    // Noise: random forces and torques of the pairs; Noise::ENERGY: the heat pays for their work on the motion
 
     template <class Form, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
     void force_loop(LoopData &data)
@@ -421,7 +420,7 @@ namespace SPHDissipation {
             pressing *= weights;
           }
           const Vec by_pressure = pair.central;
-          Vec given = all(0.0);    // heat, to i by j
+          Vec given = all(0.0);    // heat that j gives i
 
           if ((Form::CENTRAL || Form::VECTOR) && !uniform) coeffs.load(table, i, j);
           const Vec metric = metric_of<Form::BY_DISTANCE>(rsq);
@@ -496,7 +495,7 @@ namespace SPHDissipation {
             }
             given += noise.given(square, rsq, pressing);
             if constexpr (Noise::CONDUCTS) {
-              // A wall gives its half to the fluid.  The heat given so far means nothing for a wall: a factor of zero
+              // A wall gives its half to the fluid.  The heat given so far does not apply to a wall: a factor of zero
               // removes it without loss of digits, however large it is.
               Vec half = heat - work;
               for (int c = 1; c < NCHANNEL; c++)
@@ -520,9 +519,9 @@ namespace SPHDissipation {
       }
     }
 
-    // Heat that i gets from j by the work of the pressure of both, random pressures left out, and of the friction of the
-    // pair at the mean velocities of the kick, see NoiseStage::share_work(); PairNoise::given_by_torque() has the square
-    // of the torques of the pair
+    // Sum the heat that i gets from j by the work of both pressures, without random ones, and of the friction of the pair at
+    // the mean velocities of the kick, see NoiseStage::share_work(); PairNoise::given_by_torque() has the square of the
+    // torques of the pair
 
     template <class Form> void work_loop(const LoopData &data, const NoiseData &noise)
     {
@@ -592,7 +591,7 @@ namespace SPHDissipation {
             }
           }
           heat *= quarter *
-              (1.0 - if_positive(-other[NoiseRow::TEMPERATURE], all(1.0)));    // none with walls
+              (1.0 - if_positive(-other[NoiseRow::TEMPERATURE], all(1.0)));    // 0 with walls
           total += heat;
           add_column<1>(noise.total, j, -heat);
         }
@@ -600,14 +599,14 @@ namespace SPHDissipation {
       }
     }
 
-    // a flow, after pass 2; ALIKE: particles with a volume have the same coefficient
+    // Sum a flow, after pass 2; ALIKE: all particles with a volume have the same coefficient
 
     template <bool ALIKE> void flow_loop(const LoopData &data, const FlowRow *row, double *rate)
     {
       for (int ii = 0; ii < data.inum; ii++) {
         const int i = data.ilist[ii];
         const FlowRow own = row[i];
-        const double minus = -own.vol;    // what the other particle gets is added to it
+        const double minus = -own.vol;    // the loop adds up what the neighbors get
         const Vec own_mean = all(minus * own.coefficient);
         const int n = data.count[ii];
         const Offset *const neighbor = data.neighbor + data.first[ii];
@@ -636,8 +635,8 @@ namespace SPHDissipation {
       return alike ? flow_loop<true> : flow_loop<false>;
     }
 
-    // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: F without the factor of a_ij that is the
-    // same for all pairs.  ALIKE: all particles have the same impedance
+    // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: return F over the mean impedance, without
+    // the factor of a_ij that all pairs share.  ALIKE: all particles have the same impedance, which is left out as well
 
     template <bool ALIKE>
     SPH_INLINE Vec diffusion_slope(const DiffusionData &data, double own, const Offset *j,
@@ -649,7 +648,7 @@ namespace SPHDissipation {
         return slope_by_impedance(slope, own, gather(data.impedance, j));
     }
 
-    // the sums of pressure_gradient()
+    // Sum the terms of pressure_gradient()
 
     template <int DIM, bool ALIKE>
     void diffusion_sums(const LoopData &data, const DiffusionData &diffusion, double *sums)
@@ -705,7 +704,7 @@ namespace SPHDissipation {
       }
     }
 
-    // dV_i/dt over V_i, and R_i
+    // Sum dV_i/dt over V_i, and R_i, without the common factor
 
     template <int DIM, bool ALIKE>
     void diffusion_flow(const LoopData &data, const DiffusionData &diffusion, double *flow)
@@ -790,8 +789,8 @@ namespace SPHDissipation {
 #include "sph_dissipation_boundary_loops.h"
 #include "sph_dissipation_neighbor_loops.h"
 
-    // The loops of the bulk form volume, of the full forms, of viscosities that are not constant, and of the noise have
-    // weights, which are 1 with volume number
+    // Forms whose loops always have weights, 1 with volume number.  So have the loops of the bulk form volume, of
+    // viscosities that are not constant, and of the noise
 
     template <class F>
     constexpr bool IS_FULL =
@@ -821,13 +820,13 @@ namespace SPHDissipation {
       return bits;
     }
 
-    // with noise: forms that only act along e have no numbers across; there is no noise for the bulk form volume, and
-    // without friction only that of the temperatures
+    // Choose the loop with noise: forms that only act along e have no numbers across; bulk form volume has no noise; without
+    // friction only temp energy has one
 
     template <class F, NoiseKind KIND> Loop choose_noise(int dim)
     {
       constexpr bool FRICTION = F::VECTOR || F::CENTRAL;
-      if constexpr (F::BY_RATE)    // there is no noise of it
+      if constexpr (F::BY_RATE)    // has no noise
         return nullptr;
       else if constexpr (F::VECTOR)
         return (dim == 3) ? force_loop<F, false, true, PairNoise<3, F::SPINS, KIND, F::BY_SQUARE>>

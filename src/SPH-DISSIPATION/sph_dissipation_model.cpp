@@ -49,8 +49,8 @@ void FluidModel::allocate()
 }
 
 /* ----------------------------------------------------------------------
-   index of an argument in the command of the input script, for error messages;
-   lines of data files and files of fluids have none
+   Return the index of an argument in the command of the input script, for error messages; Error::NOPOINTER for words of
+   data files and of files of fluids.
 ------------------------------------------------------------------------- */
 
 int FluidModel::place(const char *word) const
@@ -61,8 +61,7 @@ int FluidModel::place(const char *word) const
 }
 
 /* ----------------------------------------------------------------------
-   set choice to the one with the number of a word; words = in the order of the enumeration; false if
-   it is none of them
+   Set choice by a word; words = in the order of the enumeration.  Return false if the word is none of them.
 ------------------------------------------------------------------------- */
 
 template <class Choice>
@@ -75,7 +74,7 @@ static bool choose(Choice &choice, const std::string &word, const std::vector<st
 }
 
 /* ----------------------------------------------------------------------
-   global settings
+   Read the arguments of pair_style.
 ------------------------------------------------------------------------- */
 
 void FluidModel::settings(int narg, char **arg)
@@ -129,7 +128,8 @@ void FluidModel::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   what follows from density continuity, with the words of the keywords that only it has, nullptr: not given
+   Set what follows from density continuity; delta, tension = words of these keywords, which need density continuity,
+   nullptr: not given.
 ------------------------------------------------------------------------- */
 
 void FluidModel::set_surface(const char *delta, const char *tension)
@@ -161,7 +161,7 @@ void FluidModel::set_surface(const char *delta, const char *tension)
 }
 
 /* ----------------------------------------------------------------------
-   the setting of a keyword whose values are words
+   Set the choice of a keyword whose values are words.
 ------------------------------------------------------------------------- */
 
 void FluidModel::set_choice(const std::string &keyword, const char *word)
@@ -201,7 +201,7 @@ void FluidModel::set_choice(const std::string &keyword, const char *word)
 }
 
 /* ----------------------------------------------------------------------
-   temp T seed, or temp energy cv seed: words = what follows temp
+   Read temp T seed, or temp energy cv seed; words = the arguments behind temp.
 ------------------------------------------------------------------------- */
 
 void FluidModel::set_temperature(char **words, bool energy)
@@ -226,7 +226,7 @@ void FluidModel::set_temperature(char **words, bool energy)
 }
 
 /* ----------------------------------------------------------------------
-   words of pair_coeff that belong to a type
+   Return the keyword of a channel for a type, or nullptr.  is_type_keyword() also accepts the other coefficients of a type.
 ------------------------------------------------------------------------- */
 
 const TypeKeyword *FluidModel::keyword(const std::string &word) const
@@ -245,11 +245,11 @@ bool FluidModel::is_type_keyword(const std::string &word) const
 }
 
 /* ----------------------------------------------------------------------
-   set coeffs for one or more type pairs
+   Read the arguments of pair_coeff:
    I J rho0 c0 mu kappa rc [pb p] [gamma g]: the types I = J of both ranges
    I J FILE NAME rc [pb p] [gamma g]: the same, from a file of fluids
    I J mu VALUE or mean: the unlike pairs of both ranges
-   derived styles have more viscosities, which follow kappa
+   In sph/micropolar, mu_r gamma1 gamma2 follow kappa.
 ------------------------------------------------------------------------- */
 
 void FluidModel::coeff(int narg, char **arg, int **setflag)
@@ -277,7 +277,7 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
 }
 
 /* ----------------------------------------------------------------------
-   index of a viscosity or another coefficient that unlike types may have of their own, or -1
+   Return the index of a viscosity or another coefficient that pair_coeff may give to two unlike types, or -1.
 ------------------------------------------------------------------------- */
 
 int FluidModel::variable_of_pairs(const std::string &word) const
@@ -288,7 +288,7 @@ int FluidModel::variable_of_pairs(const std::string &word) const
 }
 
 /* ----------------------------------------------------------------------
-   coefficients of a type; return # of types
+   Read the coefficients of types; return the number of types.
 ------------------------------------------------------------------------- */
 
 int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi, int **setflag)
@@ -331,7 +331,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     if (own) {
       double *a = one.keywords.data() + own->first;
       const double *const end = a + own->count;
-      while (own->group && a < end && *a != 0.0) a += own->group;    // the keyword was there before
+      while (own->group && a < end && *a != 0.0) a += own->group;    // groups given before
       if (end - a < nwords - 1)
         error->all(FLERR, place(arg[iarg]), "Pair_coeff {} has more than {} groups of numbers",
                    keyword, own->count / own->group);
@@ -365,7 +365,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     count++;
   }
 
-  // two types that get new coefficients here have the mean of their viscosities again, and nothing else of their own
+  // reset pairs of types with new coefficients: the mean of the viscosities, no other coefficient of unlike types
 
   for (int i = std::max(ilo, jlo); i <= std::min(ihi, jhi); i++)
     for (int j = std::max(ilo, jlo); j <= std::min(ihi, jhi); j++)
@@ -374,7 +374,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
         is_given[k][i][j] = 0;
       }
 
-  // pairs of unlike types in both ranges are ours, too, if another style shares the simulation
+  // pairs of unlike types in both ranges belong to this style as well, if another style shares the simulation
 
   for (int i = ilo; i <= ihi; i++)
     for (int j = std::max(jlo, i); j <= jhi; j++) setflag[i][j] = 1;
@@ -382,7 +382,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
 }
 
 /* ----------------------------------------------------------------------
-   also inf and nan, which utils::numeric() refuses
+   Return true for a number, also for inf and nan, which utils::numeric() refuses.
 ------------------------------------------------------------------------- */
 
 static bool is_number(const char *word)
@@ -393,7 +393,7 @@ static bool is_number(const char *word)
 }
 
 /* ----------------------------------------------------------------------
-   of the keyword arg[0]; where they come in groups, up to the next word that is no number
+   Return how many numbers follow the keyword arg[0]; of groups, all up to the next word that is no number.
 ------------------------------------------------------------------------- */
 
 int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **arg) const
@@ -410,7 +410,7 @@ int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **ar
 }
 
 /* ----------------------------------------------------------------------
-   coefficients of a type from a file of fluids; return # of types
+   Read the coefficients of types from a file of fluids; return the number of types.
 ------------------------------------------------------------------------- */
 
 int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi, int **setflag)
@@ -439,7 +439,7 @@ int FluidModel::fluid_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int
 }
 
 /* ----------------------------------------------------------------------
-   viscosities and other coefficients of unlike types; return # of pairs
+   Read viscosities and other coefficients of unlike types; return the number of pairs.
 ------------------------------------------------------------------------- */
 
 int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi,
@@ -489,7 +489,7 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
 }
 
 /* ----------------------------------------------------------------------
-   dimension of the kernel
+   Return the dimension of the kernel.
 ------------------------------------------------------------------------- */
 
 int FluidModel::dimension() const
@@ -505,7 +505,7 @@ int FluidModel::dimension() const
 }
 
 /* ----------------------------------------------------------------------
-   support radius of all types
+   Return the support radius, the same for all types.
 ------------------------------------------------------------------------- */
 
 double FluidModel::common_support(int **setflag) const

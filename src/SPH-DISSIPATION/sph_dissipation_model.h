@@ -30,7 +30,7 @@ namespace SPHDissipation {
   struct Parameters;
   struct TypePair;
 
-  // what pair_coeff I I sets and what follows from it
+  // Coefficients of a type, which pair_coeff I I sets, and what follows from them
 
   struct TypeCoeff {
     TypeCoeff();
@@ -42,13 +42,12 @@ namespace SPHDissipation {
     double rc = 0.0;
     double gamma = 0.0;    // 0: default of the equation of state
     double cv = 0.0;       // heat capacity per mass; 0: that of the pair style
-    int intrinsic = 0;     // 1: kappa is what the shear term gives
-    int other = 0;         // 1: its particles belong to another style of pair_style hybrid
+    int intrinsic = 0;     // 1: kappa is the bulk viscosity of the shear term
+    int other = 0;         // 1: the type belongs to another style of pair_style hybrid
   };
 
-  // The fluids as the commands of a pair style describe them: the choices of pair_style, the
-  // coefficients of each type and the viscosities of each pair of types of pair_coeff; in and out of
-  // restart and data files.  setflag is that of class Pair: which types and pairs of types are set.
+  // Settings of pair_style, and coefficients of types and of pairs of types from pair_coeff; writes and reads restart files,
+  // writes data files.  setflag is that of class Pair: which types and pairs of types are set.
 
   class FluidModel : protected Pointers {
    public:
@@ -56,36 +55,35 @@ namespace SPHDissipation {
     ~FluidModel() override;
     void allocate();
 
-    // arguments of the commands
+    // read the arguments of pair_style and pair_coeff
 
     void settings(int narg, char **arg);
     void coeff(int narg, char **arg, int **setflag);
 
-    // dimension of the kernel and support radius of all types; errors if there is none that fits
+    // Return the dimension of the kernel, and the support radius of all types; stop if the box or the types do not fit
 
     int dimension() const;
     double common_support(int **setflag) const;
     std::string summary(int dim, double support) const;    // one line for the log
 
-    // Coefficients that other commands may vary during a run, see Pair::extract(): arrays by type
-    // pair, of which they set the entries i <= j.  adopt() takes over what they
-    // have set and says whether there was anything.
+    // Return the array by type pair of a coefficient that other commands may vary during a run, see Pair::extract(): they
+    // set its entries i <= j.  adopt() takes over the new values and returns whether there were any.
 
     void *extract(const char *name, int &dim);
     bool adopt();
 
-    // Set parameters from what the commands and adopt() have set, of a kernel of dimension dim with this
-    // support radius; errors if a fluid would not dissipate
+    // Derive the parameters of the loops from the coefficients, for a kernel of dimension dim with this support radius; stop
+    // if a fluid would not dissipate
 
     void derive(int dim, double support);
     const Parameters &parameters() const { return *par; }
     const Constants &constants() const;    // of these parameters
     bool conducts(int type) const;
     double stiffness(int type, double dt) const;    // of the states, see BaseState
-    double diffusion_rate() const;    // of volume, its fastest mode at the reference densities
-    void set_step(double dt);         // of the states
+    double diffusion_rate() const;    // of volume: fastest mode at reference densities
+    void set_step(double dt);         // sets the numbers of the states for this time step
 
-    // of a pair of types: what its coefficients follow from, the bulk viscosity that its pair terms give
+    // Return the input of the coefficients of a pair of types; return the bulk viscosity of its pair terms
 
     TypePair pair_fluid(int i, int j) const;
     double intrinsic_kappa(int i, int j) const;
@@ -104,21 +102,21 @@ namespace SPHDissipation {
 
     double viscosity(int k, int i, int j) const { return variables[k].value[i][j]; }
     int nviscosity() const { return number_of_viscosities(spins); }
-    bool has_torques() const;               // any of the viscosities of spins
+    bool has_torques() const;               // any viscosity of the spins is not 0
     double heat_capacity(int type) const    // per mass
     {
       return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
     }
     bool has_temperatures() const;     // any type has a heat capacity
-    bool heat_acts(int type) const;    // on its pressure, viscosity, or states, or it is conducted
+    bool heat_acts(int type) const;    // on pressure, viscosity, or states, or it is conducted
     bool has_rheology() const;         // mu of any type is not constant
-    bool has_pair_energy() const;      // any two types
+    bool has_pair_energy() const;      // any two unlike types have an energy of their pairs
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
-    // a keyword of this type that needs one of these, see enum Requirement, or nullptr
+    // Return a keyword of this type that needs one of these, see enum Requirement, or nullptr
     const char *keyword_that_needs(int requirements, int type) const;
 
-    // number that differs where settings or coefficients do, and that of the last forces, 0 before
+    // Return a hash of settings and coefficients; the hash at the last forces, 0 before the first ones
     std::uint64_t hash() const;
     std::uint64_t hash_of_forces = 0;
 
@@ -126,13 +124,13 @@ namespace SPHDissipation {
     NoiseClock clock;
     int diffusion_age = 0;    // steps since the diffusion of volume was evaluated
     std::string simd =
-        "auto";    // pair loops to use; not in restart files, which may go to another machine
+        "auto";    // pair loops; not in restart files, which another machine may read
     TypeCoeff *coeffs = nullptr;    // by type, from 1
-    bool shared = false;            // there are types of other styles
+    bool shared = false;            // some types belong to other styles
 
    private:
-    // what extract() gives out: the viscosities, the coefficients of unlike types, then coefficients of types, whose
-    // value for two types is the mean and has no other meaning; known = value when the model set it last
+    // Coefficient that extract() returns: first the viscosities, then the coefficients of unlike types, then those of types,
+    // whose value for two types is the mean and has no other meaning; known = value when the model set it last
 
     struct Variable {
       std::string name;
@@ -153,16 +151,16 @@ namespace SPHDissipation {
     std::vector<Variable> variables;
     const std::vector<TypeKeyword> keywords;    // of types, of all channels
     const std::vector<std::pair<std::string, int>> of_types,
-        of_pairs;                      // names, numbers: of types, of unlike types
-    double ***pair_given = nullptr;    // by variable and type pair: what pair_coeff gave
-    int ***is_given = nullptr;         // 1 if it did, 0 if the value is mixed from the types
+        of_pairs;    // names and numbers of coefficients of types, of unlike types
+    double ***pair_given = nullptr;    // value from pair_coeff, by variable and type pair
+    int ***is_given = nullptr;         // 1: pair_coeff gave it; 0: it is mixed from the types
 
     int npair() const { return nviscosity() + static_cast<int>(of_pairs.size()); }
     const char *inadmissible_keywords(const TypeCoeff &) const;
-    int variable_of_pairs(const std::string &name) const;    // its number, or -1
+    int variable_of_pairs(const std::string &name) const;    // number in variables, or -1
     const TypeKeyword *keyword(const std::string &name) const;
     bool is_type_keyword(const std::string &name) const;
-    bool varies_no_flow(const char *name) const;    // it is of a flow that no type has
+    bool varies_no_flow(const char *name) const;    // name belongs to a flow that no type has
     bool is_of_pair_energy(const char *name) const;
     bool is_of_missing_group(int coefficient, int type) const;
     double &type_value(int, int);

@@ -26,8 +26,9 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// First number of the settings in a restart file; the settings of older versions begin with one below 10.  VERSION is a
-// new one for every change of what is stored but the coefficients of channels, whose names make the upper 15 bits.
+// Return the first number of the settings in a restart file: VERSION in the lower 16 bits, and a hash of the names of all
+// coefficients above.  Raise VERSION with any other change of the stored numbers.  Older versions begin with a number below
+// 10.
 
 static constexpr int VERSION = 1007;
 
@@ -43,7 +44,7 @@ int FluidModel::format_number() const
 }
 
 /* ----------------------------------------------------------------------
-   numbers to and from a restart file; proc 0 reads and checks, all get them
+   Write and read numbers of a restart file; rank 0 reads and checks them, all ranks get them.
 ------------------------------------------------------------------------- */
 
 static void put(FILE *fp, int value)
@@ -101,7 +102,7 @@ class Reader : protected Pointers {
 }    // namespace
 
 /* ----------------------------------------------------------------------
-   proc 0 writes choices to restart file
+   Write the settings to a restart file, on rank 0.
 ------------------------------------------------------------------------- */
 
 void FluidModel::write_settings(FILE *fp) const
@@ -130,7 +131,7 @@ void FluidModel::write_settings(FILE *fp) const
 }
 
 /* ----------------------------------------------------------------------
-   proc 0 reads choices from restart file, bcasts
+   Read the settings from a restart file on rank 0, and broadcast them.
 ------------------------------------------------------------------------- */
 
 void FluidModel::read_settings(FILE *fp)
@@ -174,7 +175,7 @@ void FluidModel::read_settings(FILE *fp)
 }
 
 /* ----------------------------------------------------------------------
-   FNV-1a of the bits of all numbers
+   Return the FNV-1a hash of the bits of all settings and coefficients.
 ------------------------------------------------------------------------- */
 
 std::uint64_t FluidModel::hash() const
@@ -212,8 +213,7 @@ std::uint64_t FluidModel::hash() const
 }
 
 /* ----------------------------------------------------------------------
-   proc 0 writes coefficients to restart file: of the types that have them, and the
-   viscosities that pairs of types have of their own
+   Write coefficients to a restart file, on rank 0: of the types that have them, and of unlike types with their own.
 ------------------------------------------------------------------------- */
 
 void FluidModel::write_coeffs(FILE *fp, int **setflag) const
@@ -239,7 +239,7 @@ void FluidModel::write_coeffs(FILE *fp, int **setflag) const
 }
 
 /* ----------------------------------------------------------------------
-   proc 0 reads coefficients from restart file, bcasts
+   Read coefficients from a restart file on rank 0, and broadcast them.
 ------------------------------------------------------------------------- */
 
 void FluidModel::read_coeffs(FILE *fp, int **setflag)
@@ -273,7 +273,7 @@ void FluidModel::read_coeffs(FILE *fp, int **setflag)
 }
 
 /* ----------------------------------------------------------------------
-   proc 0 writes coefficients of types to data file
+   Write coefficients of types to a data file, on rank 0.
 ------------------------------------------------------------------------- */
 
 void FluidModel::write_data(FILE *fp) const
@@ -283,7 +283,7 @@ void FluidModel::write_data(FILE *fp) const
 }
 
 /* ----------------------------------------------------------------------
-   proc 0 writes coefficients of types and of unlike pairs to data file
+   Write coefficients of types and of unlike pairs to a data file, on rank 0.
 ------------------------------------------------------------------------- */
 
 void FluidModel::write_data_all(FILE *fp) const
@@ -302,7 +302,7 @@ void FluidModel::write_data_all(FILE *fp) const
 }
 
 /* ----------------------------------------------------------------------
-   a line of a data file, of which read_data would drop what exceeds its buffer
+   Write a line of a data file; stop if it exceeds the buffer of read_data, which would drop the rest.
 ------------------------------------------------------------------------- */
 
 void FluidModel::put_line(FILE *fp, const std::string &line, const std::string &what) const
@@ -316,7 +316,7 @@ void FluidModel::put_line(FILE *fp, const std::string &line, const std::string &
 }
 
 /* ----------------------------------------------------------------------
-   arguments of pair_coeff I I: numbers with as many digits as give them back, keywords that are not the default
+   Return the arguments of pair_coeff I I: numbers with all digits that restore them, and keywords with non-default values.
 ------------------------------------------------------------------------- */
 
 std::string FluidModel::type_line(int i) const

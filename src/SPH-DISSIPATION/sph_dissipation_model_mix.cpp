@@ -132,7 +132,7 @@ void FluidModel::derive(int dim, double support)
 }
 
 /* ----------------------------------------------------------------------
-   exponent of the equation of state of type i, its viscosities with types up to i
+   Derive the equation of state of type i, and publish() all variables but kappa for pairs of i with types up to i.
 ------------------------------------------------------------------------- */
 
 void FluidModel::mix(int i)
@@ -242,7 +242,7 @@ void FluidModel::check_pair(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   a negative coefficient, but for round-off, has a noise only up to the bound of each particle
+   Check that the bulk term of type i has a noise: a negative coefficient has one only up to the bound of each particle.
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_balance(int i) const
@@ -264,7 +264,7 @@ void FluidModel::check_balance(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   whether the style and the heat capacity are such as the keywords of a type need
+   Check that pair_style and the heat capacity fit the keywords of type i.
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_keywords(int i) const
@@ -297,7 +297,7 @@ void FluidModel::check_keywords(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   what a viscosity that is not constant does not have
+   Refuse the settings that cannot be used with a viscosity that is not constant.
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_rheology(int i) const
@@ -336,7 +336,7 @@ bool FluidModel::has_rheology() const
 }
 
 /* ----------------------------------------------------------------------
-   same viscosity and law
+   Return true if two types have the same mu and the same law of viscosity.
 ------------------------------------------------------------------------- */
 
 bool FluidModel::is_alike(int i, int j) const
@@ -375,7 +375,7 @@ bool FluidModel::varies_no_flow(const char *name) const
 }
 
 /* ----------------------------------------------------------------------
-   a word of the channels that have one, of any two types
+   Return true if pair_coeff gives any two types the coefficient of a pair energy.
 ------------------------------------------------------------------------- */
 
 bool FluidModel::has_pair_energy() const
@@ -438,8 +438,8 @@ void FluidModel::warn_of_ignored() const
 }
 
 /* ----------------------------------------------------------------------
-   what another command may vary.  It must have an effect.  Torques, flows, and energies of pairs must not begin
-   during a run, because the inertia of particles, their states, and the styles have not been checked for them
+   Return a variable that another command may vary; nullptr if it has no effect.  Torques, flows, and energies of pairs must
+   not begin during a run, because nothing has checked inertia, states, and styles for them.
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)
@@ -458,7 +458,7 @@ void *FluidModel::extract(const char *name, int &dim)
 }
 
 /* ----------------------------------------------------------------------
-   k-th variable of type i
+   Return the k-th variable of type i.
 ------------------------------------------------------------------------- */
 
 double &FluidModel::type_value(int k, int i)
@@ -478,7 +478,7 @@ double &FluidModel::type_value(int k, int i)
 }
 
 /* ----------------------------------------------------------------------
-   k-th variable of two types, as given or mixed
+   Return the k-th variable of two types, as given or mixed: viscosities by the harmonic mean.
 ------------------------------------------------------------------------- */
 
 double FluidModel::pair_value(int k, int i, int j)
@@ -491,7 +491,9 @@ double FluidModel::pair_value(int k, int i, int j)
   return (a * b > 0.0) ? 2.0 * a * b / (a + b) : 0.0;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Put the k-th variable of type i with types up to i into the arrays for extract().
+------------------------------------------------------------------------- */
 
 void FluidModel::publish(int k, int i)
 {
@@ -501,8 +503,8 @@ void FluidModel::publish(int k, int i)
 }
 
 /* ----------------------------------------------------------------------
-   true if a coefficient by keyword belongs to a group of numbers, or a marked keyword, that pair_coeff has not given to
-   this type
+   Return true if a coefficient belongs to a group of numbers, or to a marked keyword, that pair_coeff has not given to this
+   type.
 ------------------------------------------------------------------------- */
 
 bool FluidModel::is_of_missing_group(int coefficient, int type) const
@@ -518,8 +520,8 @@ bool FluidModel::is_of_missing_group(int coefficient, int type) const
 }
 
 /* ----------------------------------------------------------------------
-   coefficients of types and viscosities of type pairs from what was put in their places
-   a mixed one may change only together with those of both types, to what it would be anyway
+   Take over the values that other commands have put into the arrays of extract(); return true if any value is new.  A mixed
+   value may change only together with those of both types, to the mean of these.
 ------------------------------------------------------------------------- */
 
 bool FluidModel::adopt()

@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The loops of the neighbor search; compiled as sph_dissipation_loops.h, which includes this file inside its namespace.
+// The loops of the neighbor search; sph_dissipation_loops.h includes this file inside its namespace.
 
 SPH_INLINE void take_candidates(const PlaceColumns &from, int begin, int end, const double *corner,
                                 double scale, CandidateColumns &to)

@@ -32,7 +32,7 @@ static constexpr double SPARSE = 16.0;    // most cells per particle
 static constexpr int COLUMN = 6;          // cells in y and z of one column
 static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
-    1.0e-6;    // of the square of a distance, in units of the cutoff
+    1.0e-6;    // error of the square of a distance, in units of the cutoff
 
 /* ---------------------------------------------------------------------- */
 
@@ -64,13 +64,13 @@ bool NeighborSearch::update(NeighList *list)
   if (ncalls < 0) copy_neighbor_info();    // as the styles of LAMMPS, once per setup of a run
   ncalls = neighbor->ncalls;
   lastcall = neighbor->lastcall;
-  if (list->copy) {    // of one that LAMMPS builds for others
+  if (list->copy) {    // copy of a list that LAMMPS builds for others
     neighbor->build_one(list);
     return true;
   }
   list->grow(atom->nlocal, atom->nlocal + atom->nghost);
   build(list);
-  list->np->last_build = lastcall;    // LAMMPS does not build it for a list that is a copy of it
+  list->np->last_build = lastcall;    // so LAMMPS does not build the list again for a copy
   return true;
 }
 
@@ -112,9 +112,9 @@ void NeighborSearch::build(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   neighbors of the owned particles in some of the cells.  Behind those of the same cell, those within the support come first,
-   and those that only the skin adds last: until the next list most vectors of the pair loops are full, or have no pair
-   inside the support
+   Find the neighbors of the owned particles in some of the cells: first those in the same cell, then those within the
+   support, then those that only the skin adds.  In this order, most vectors of the pair loops are full or have no pair
+   inside the support.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, Part &part) const
@@ -146,7 +146,7 @@ void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, P
       float at[3];
       for (int d = 0; d < 3; d++) at[d] = static_cast<float>((owned.x[d][p] - corner[d]) / cutoff);
 
-      int n = last - p - 1;    // owned ones in the same cell
+      int n = last - p - 1;    // owned particles in the same cell
       std::copy_n(owned.index.begin() + p + 1, n, found);
       n = check(i, found, n);
 
@@ -182,7 +182,7 @@ void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, P
 }
 
 /* ----------------------------------------------------------------------
-   owned particles of the types of the fluid, and the ghosts of these types with which they may have pairs
+   Find the owned particles of the types of the fluid, and the ghosts of these types with which they may have pairs.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_members(const NeighList *list)
@@ -202,9 +202,9 @@ void NeighborSearch::find_members(const NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   half of the reach is long enough for few cells and short enough for few candidates; where most of the space is empty,
-   the cells are larger.  They divide the domain of the processor as the bins do by which LAMMPS sorts the particles, so that
-   those of a cell are next to each other in memory.  LAMMPS's bins have looked at all positions: they are numbers
+   Choose the size of the cells: half of the reach is long enough for few cells and short enough for few candidates; cells
+   are larger if most of the space is empty.  They divide the domain of the processor as the bins by which LAMMPS sorts the
+   particles, so that those of a cell are close in memory.  LAMMPS's bins have checked that all positions are finite.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::choose_cells()
@@ -240,7 +240,7 @@ void NeighborSearch::choose_cells()
 }
 
 /* ----------------------------------------------------------------------
-   the rows of cells that may have a neighbor of a particle
+   Find the rows of cells that may have a neighbor of a particle.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_rows()
@@ -266,7 +266,7 @@ void NeighborSearch::find_rows()
 }
 
 /* ----------------------------------------------------------------------
-   counting sort
+   Sort members into cells, by counting.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::sort(Sorted &sorted, int from, int to)
@@ -301,8 +301,8 @@ void NeighborSearch::sort(Sorted &sorted, int from, int to)
 }
 
 /* ----------------------------------------------------------------------
-   Cells with owned particles, in the order of the rows of the list: one square column of cells along x after the other, so
-   that the neighbors of successive rows are in the second-level cache
+   Order the cells with owned particles for the rows of the list: one square column of cells along x after the other, so that
+   the neighbors of successive rows are in the second-level cache.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::order_cells()
@@ -319,7 +319,7 @@ void NeighborSearch::order_cells()
 }
 
 /* ----------------------------------------------------------------------
-   of one cell: the particles in some rows of cells around it, relative to its corner, in units of the cutoff
+   Copy the particles in some rows of cells around a cell, relative to the corner of the cell, in units of the cutoff.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<CellRow> &rows,
@@ -351,7 +351,7 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
 }
 
 /* ----------------------------------------------------------------------
-   keeps those within the cutoff, in double precision; returns how many
+   Keep the particles within the cutoff, in double precision; return their number.
 ------------------------------------------------------------------------- */
 
 int NeighborSearch::check(int i, int *found, int n) const
@@ -363,7 +363,7 @@ int NeighborSearch::check(int i, int *found, int n) const
 }
 
 /* ----------------------------------------------------------------------
-   pairs that neither pair_style hybrid nor neigh_modify exclude takes away
+   Return true if neither pair_style hybrid nor neigh_modify exclude removes the pair.
 ------------------------------------------------------------------------- */
 
 bool NeighborSearch::is_wanted(const NeighList *list, int i, int j) const
@@ -374,7 +374,7 @@ bool NeighborSearch::is_wanted(const NeighList *list, int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   whether neigh_modify exclude names the type of a particle or one of its groups
+   Return true if neigh_modify exclude names the type of a particle, one of its groups, or its molecule.
 ------------------------------------------------------------------------- */
 
 bool NeighborSearch::has_exclusions(int i) const
@@ -391,7 +391,8 @@ bool NeighborSearch::has_exclusions(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   newton on, an owned particle and a ghost: by the IDs, as class NPairNsq of LAMMPS; by position for images of one particle
+   Return true if this processor has the pair of an owned particle and a ghost, with newton on: by the IDs, as class NPairNsq
+   of LAMMPS; by position for images of one particle.
 ------------------------------------------------------------------------- */
 
 bool NeighborSearch::has_pair(int i, int j) const

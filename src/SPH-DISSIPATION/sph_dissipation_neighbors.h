@@ -24,39 +24,39 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Builds the half neighbor list of the fluid with the pairs of LAMMPS's own: within the cutoff and the skin, not
-  // excluded, of the types that pair_style hybrid leaves to the fluid.  The particles are sorted into cells of half the
-  // reach; the candidates of a cell are copied into columns, relative to its corner and in single precision, where whole
-  // vectors of them are tested for each particle of the cell.  Those too close to the bound for single precision are
-  // tested in double precision.  Of two owned particles the one in the lower cell has the pair, so that half of the cells are
-  // looked at for them.  With newton on, an owned particle has its pairs with the ghosts that have come from above; where the
-  // communication of LAMMPS is not by bricks, IDs tell which processor has the pair.
+  // Builds the half neighbor list of the fluid with the same pairs as LAMMPS: within the cutoff and the skin, not excluded,
+  // of types that pair_style hybrid leaves to the fluid.  The search sorts the particles into cells of half the reach; it
+  // copies the candidates of a cell into columns, relative to the corner of the cell and in single precision, and tests
+  // whole vectors of them for each particle of the cell.  It tests candidates too close to the bound in double precision.
+  // Of two owned particles, the one in the lower cell has the pair, so that the search looks at half of the cells.  With
+  // newton on, an owned particle has its pairs with the ghosts from above; if the communication of LAMMPS is not by bricks,
+  // IDs tell which processor has a pair.
 
   class NeighborSearch : public NPair {
    public:
     NeighborSearch(class LAMMPS *lmp, Exchange &messages) : NPair(lmp), exchange(messages) {}
 
-    // what the settings of a run have that is left to LAMMPS, or empty
+    // Return the setting for which LAMMPS must build the list; empty if there is none
     std::string left_to_lammps() const;
 
-    // start of a run: lists are to be built, for particles up to the distance support plus the skin
+    // Start a run with lists for particles up to the distance support plus the skin
     void init(const LoopSet *, Threads *, double support);
 
-    // the list of the pair style, requested as an occasional one, for the particles where they were when LAMMPS built its
-    // perpetual lists; returns whether it was built now
+    // Build the list of the pair style, requested as an occasional one, if LAMMPS has built its perpetual lists since the
+    // last call; return whether the list is new
     bool update(NeighList *);
 
     void build(NeighList *) override;
     double memory_usage() const;    // bytes
 
    private:
-    // cells next to that of a particle, in a row along x: from first to last
+    // Cells near that of a particle, in a row along x from first to last, relative to the cell of the particle
 
     struct CellRow {
       int y, z, first, last;
     };
 
-    // particles sorted into cells; those of cell c are the entries start[c] to start[c + 1] - 1
+    // Particles sorted into cells; cell c has the entries start[c] to start[c + 1] - 1
 
     struct Sorted {
       std::vector<int> start, index;
@@ -64,19 +64,19 @@ namespace SPHDissipation {
     };
 
     struct Candidates {
-      CandidateColumns columns;    // of x, index
+      CandidateColumns columns;    // point to x and index
       std::vector<float> x[3];
       std::vector<int> index;
     };
 
-    // what one thread finds
+    // Results of one thread
 
     struct Part {
       Candidates owned, ghosts;      // of one cell
-      std::vector<int> neighbors;    // of all of its rows of the list
-      std::vector<int> far;          // of one row: those beyond the support
-      std::vector<int> rows;         // their particles
-      std::vector<bigint> offset;    // of their neighbors
+      std::vector<int> neighbors;    // of all rows of the list of this thread
+      std::vector<int> far;          // neighbors of one row beyond the support
+      std::vector<int> rows;         // particle of each row
+      std::vector<bigint> offset;    // first neighbor of each row
     };
 
     Exchange &exchange;
@@ -85,24 +85,24 @@ namespace SPHDissipation {
     double support = 0.0, cutoff = 0.0;
     bigint ncalls = -1, lastcall = -1;    // of class Neighbor, when the list was built
     bool skips = false;    // pair_style hybrid gives pairs of types of the fluid to others
-    bool by_id = false;    // has_pair() tells which pairs with ghosts are wanted
-    double lo[3] = {}, size[3] = {};    // of the cells
+    bool by_id = false;    // has_pair() selects the pairs with ghosts
+    double lo[3] = {}, size[3] = {};    // corner of the first cell, size of a cell
     int ncell[3] = {};
     std::vector<CellRow> all_rows, upper_rows;
     std::vector<int> members;    // nowned owned particles of the fluid, then ghosts
     int nowned = 0;
-    std::vector<int> cell;     // of each of those that are being sorted
-    std::vector<int> order;    // cells with owned particles, in that of the rows
+    std::vector<int> cell;     // cell of each particle in sort()
+    std::vector<int> order;    // cells with owned particles, in the order of the rows
     Sorted owned, ghosts;
     std::vector<Part> parts;
 
     void find_members(const NeighList *);
     void choose_cells();
     void find_rows();
-    void sort(Sorted &, int from, int to);    // of the members
+    void sort(Sorted &, int from, int to);    // members from ... to - 1
     void order_cells();
     void search(std::size_t from, std::size_t to, NeighList *,
-                Part &) const;    // of cells in their order
+                Part &) const;    // cells order[from] ... order[to - 1]
     void find_candidates(const Sorted &, const std::vector<CellRow> &, const int *place,
                          const double *corner, Candidates &) const;
     int check(int i, int *found, int n) const;
@@ -110,7 +110,7 @@ namespace SPHDissipation {
     bool has_exclusions(int i) const;
     bool has_pair(int i, int j) const;
 
-    // keeps those of which keep(j) is true; returns how many
+    // Keep the entries j of found with keep(j); return their number
 
     template <class Keep> static int filter(int *found, int n, const Keep &keep)
     {

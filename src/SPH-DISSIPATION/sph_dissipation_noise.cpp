@@ -45,7 +45,7 @@ StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
                                                             : NoiseKind::ENERGY};
   if (engine.parameters().directed_noise()) form.kind = NoiseKind::DIRECTED;
 
-  // the force of a step is that of an impulse over its time
+  // a force is an impulse over the time step
 
   const double factor =
       2.0 * force->boltz * (energy ? 1.0 : engine.parameters().temperature) / update->dt;
@@ -70,7 +70,7 @@ StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 }
 
 /* ----------------------------------------------------------------------
-   what surfaces add to the friction of their pairs has numbers of its own, one along e
+   Set the noise of the friction that surfaces add to their pairs: with numbers of its own, one along e.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::set_surface_noise()
@@ -86,8 +86,8 @@ void NoiseStage::set_surface_noise()
 }
 
 /* ----------------------------------------------------------------------
-   The random numbers continue if reset_timestep goes back: the forces of a setup have those of the last step, others
-   those of the next one.  rerun repeats them.
+   Raise the offset if reset_timestep goes back, so that random numbers continue: in a setup with those of the last step,
+   else with those of the next one.  rerun repeats the numbers.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::count_step()
@@ -102,7 +102,7 @@ void NoiseStage::count_step()
 }
 
 /* ----------------------------------------------------------------------
-   two images of a particle within the support of another one would get the same number
+   Stop if a periodic box is so small that two images of a particle in one support would get the same number.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::check_box() const
@@ -135,7 +135,8 @@ void NoiseStage::set_tags()
 }
 
 /* ----------------------------------------------------------------------
-   A particle without heat has temperature 0: it gets no noise, and friction heats it.
+   Set the rows and mobilities of all particles.  A particle without heat has temperature 0: it gets no noise, and friction
+   heats it.  At the start of a run, stop or warn if there are such particles.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::set_temperatures(bool continued, int not_fluid)
@@ -145,7 +146,7 @@ void NoiseStage::set_temperatures(bool continued, int not_fluid)
   const bool spins = engine.has_spin();
   const StateRows &states = engine.rows().states;
   const double *const inertia = Fields::of(atom)->inertia;
-  constexpr double SMALLEST = 1.0e-300;    // not 0, for walls have a negative one
+  constexpr double SMALLEST = 1.0e-300;    // not 0: a negative temperature marks a wall
   row.resize(nall + BLOCK);
   mobility.assign(nall + BLOCK, 0.0);
   std::fill_n(row.begin() + nall, BLOCK, NoiseRow());
@@ -211,7 +212,7 @@ void NoiseStage::warn_of_cold(bigint number) const
 }
 
 /* ----------------------------------------------------------------------
-   particles that a fix has created come with a new neighbor list, without internal energy
+   Warn once in a run of particles without internal energy, which a fix may have created before the neighbor list was built.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::find_cold_arrivals(int not_fluid)
@@ -227,7 +228,7 @@ void NoiseStage::find_cold_arrivals(int not_fluid)
 }
 
 /* ----------------------------------------------------------------------
-   false if there is no friction between pairs
+   Set the factors of random numbers by pair of types; return false if there is no friction between pairs.
 ------------------------------------------------------------------------- */
 
 bool NoiseStage::set_coeffs(double factor)
@@ -265,7 +266,7 @@ bool NoiseStage::is_negative(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   ghosts of a particle get the same number as it, without communication
+   Add the random pressure of owned and ghost particles.  A ghost gets the number of its owner, without communication.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::add_pressure(double factor, int not_fluid)
@@ -295,7 +296,7 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
 }
 
 /* ----------------------------------------------------------------------
-   random force of each owned particle, sqrt(2 kT b V/dt) xi, of the drags b of single particles
+   Return the random force of each owned particle, sqrt(2 kT b V/dt) xi, for the drags b of single particles.
 ------------------------------------------------------------------------- */
 
 const double *NoiseStage::draw_drag(double factor, int not_fluid)
@@ -322,7 +323,7 @@ const std::vector<double> &NoiseStage::draw_for_states()
   const int nlocal = atom->nlocal, n = nlocal + BLOCK;
   constexpr int AT_ONCE = 4;    // numbers of a counter
   const StateRows states = engine.states();
-  int end = 0;    // of the places of states that have some
+  int end = 0;    // behind the last place of a state with noise
   for (const TypeParameters &type : par.type)
     for (int slot = 0; slot < States::MOST; slot++)
       if (States::noise(type.states, slot) != 0.0) end = std::max(end, slot + 1);
@@ -390,7 +391,9 @@ void NoiseStage::share_work()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set reach and share, see NoiseStage, from eta and the bounds of particles with a negative coefficient of the bulk term.
+------------------------------------------------------------------------- */
 
 void NoiseStage::set_shares(const double *bound, int not_fluid)
 {

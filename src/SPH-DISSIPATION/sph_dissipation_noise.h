@@ -27,16 +27,16 @@ namespace SPHDissipation {
   // viscous terms together (theory page).
   //
   // zeta_i >= 0: random pressure sqrt(2 kT zeta/(V dt)) xi_i
-  // zeta_i < 0: half of what each pair of i puts before (u.e)^2, a_ij F V_i V_j, is that of i, which
-  // has a number xi_ij of its own for each pair.  With gamma_ij = (c_j/c_i) sqrt(V_j F r^2/a_ij), D_i =
-  // sum_j gamma_ij^2, and eta_i = sum_j gamma_ij xi_ij, the numbers
+  // zeta_i < 0: half of the coefficient of (u.e)^2 of each pair of i, a_ij F V_i V_j, belongs to i, which has its own number
+  // xi_ij for each pair.  With gamma_ij = (c_j/c_i) sqrt(V_j F r^2/a_ij), D_i = sum_j gamma_ij^2, and
+  // eta_i = sum_j gamma_ij xi_ij, the numbers
   //   chi_ij = xi_ij - s_i gamma_ij eta_i/D_i,  s_i = 1 - sqrt(1 + 2 zeta_i D_i)
   // have the covariance 1 + 2 zeta_i gamma_i gamma_i^T.  D_i is the bound of LimitStage.
   //
-  // temp energy: each particle has the temperature T_i of its heat, what its internal energy has beyond the elastic one.
-  // Pairs have T_ij = 2 T_i T_j/(T_i + T_j) and less friction, so that exp(S/k) prod dS_i is stationary, and conduction
-  // has a random flow, see the theory page.  Friction with a wall has T_i and the heat of the particle of the fluid alone,
-  // a wall with a temperature is a heat bath for the flow.  Pass 2 then conducts the heat, too: all of a pair is at hand there.
+  // temp energy: each particle has the temperature T_i of its heat, the internal energy less the elastic energy.  Pairs have
+  // T_ij = 2 T_i T_j/(T_i + T_j) and less friction, so that exp(S/k) prod dS_i is stationary, and conduction has a random
+  // flow, see the theory page.  Friction with a wall has T_i and the heat of the fluid particle alone; a wall with a
+  // temperature is a heat bath for the flow.  Pass 2 then also conducts the heat, since it has all values of a pair.
 
   class NoiseStage : public Stage {
    public:
@@ -45,26 +45,25 @@ namespace SPHDissipation {
     {
     }
 
-    // Once in each step, before run(), which a step may call more than once: sets the step of its random numbers
+    // Once in each step, before run(), which a step may call more than once: set the step of the random numbers
 
     void count_step();
 
-    // Before pass 2: adds the random pressure to what that multiplies with F r_ij, and returns the rest, for pass 2.
+    // Before pass 2: add the random pressure to Particle::g; return the noise of pairs and single particles, for pass 2.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
-    // of their own; continued = the first forces of a run are to be the last ones of the run before
+    // of their own; continued = the run continues the last one, whose last forces its first forces repeat
 
     StepNoise run(const double *bound, int not_fluid, bool continued);
 
-    // After pass 2, with the forces on owned particles complete, in a fluid of different masses whose particles have
-    // temperatures: adds to the heating what each pair has of the work of pressures and friction at the mean velocities
-    // of the kick, and a particle has not of what it pays for its own kick, see the theory page
+    // After pass 2 and ForceStage::collect(), with temp energy, if masses differ: add to the heating the share of each pair
+    // in the work of pressures and friction at the mean velocities of the kick, less what each particle pays for its own
+    // kick, see the theory page
 
     void share_work();
     bool shares_work() const { return data.unequal; }
-    void find_masses(int not_fluid);    // whether they differ; before run()
+    void find_masses(int not_fluid);    // before run(): finds whether masses of the fluid differ
 
-    // The noise of the states of owned particles, for StateStage::advance(), after the forces of the last step, in the
-    // next one
+    // Return the noise of the states of owned particles, for StateStage::advance() in the next step
 
     const std::vector<double> &draw_for_states();
 
@@ -80,7 +79,7 @@ namespace SPHDissipation {
     std::vector<double> tag, reach, share, eta, pressure, drag, drag_force;
     std::vector<double> numbers, change, flow;
     std::vector<Acceleration> acceleration;
-    bool cold_arrival = false;    // in this run
+    bool cold_arrival = false;    // particles without heat have come in this run
 
     void check_box() const;
     void set_tags();

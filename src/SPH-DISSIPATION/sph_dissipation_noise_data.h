@@ -21,38 +21,38 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Random numbers belong to a pair or a particle, the step, and a channel: the keys of the generator
+  // A random number belongs to a pair or a particle, a step, and a channel: the keys of the generator
   // are the seed and the channel, its counter the two IDs and the number of the step.
 
   enum class NoiseChannel {
     PRESSURE,
     PAIR,
     DRAG,
-    STATE,            // and those that follow, one for every four states
-    SURFACE = 1000    // pairs of a surface, if those of PAIR have others
+    STATE,            // and the next ones: one for every four states
+    SURFACE = 1000    // pairs across a surface, whose part in PAIR has other numbers
   };
 
-  // the step of the last random numbers, and what is added to a step to get numbers that no step before had
+  // Step of the last random numbers; offset of all steps, so that no two steps have the same numbers
 
   struct NoiseClock {
     std::int64_t step = -1, offset = 0;
   };
 
-  // of the pairs of two types: what the random numbers are multiplied with, in units of
-  // sqrt(F V_i V_j), with F r instead of F for mg/fr; central_by_square = square of what belongs to F r^2
+  // Factors of the random numbers of pairs of two types, in units of sqrt(F V_i V_j), with F r instead of F for mg/fr;
+  // central_by_square = square of the factor for F r^2
 
   struct NoiseCoeff {
     double central;            // along e
     double transverse;         // across e
     double spin_along;         // of the spins, along e
     double spin_across;        // across e
-    double inverse_central;    // 1 / what the shear term puts before (u.e)^2, or 0
-    double conduction;         // of heat
+    double inverse_central;    // 1 / coefficient of (u.e)^2 of the friction; 0 without friction
+    double conduction;         // mean coefficient of conduction
     double central_by_square;
   };
 
-  // Of a particle that has a temperature of its own.  One of a wall has minus the temperature of the wall, no mobility and
-  // softness, and 1 or 0 instead of the pressure: whether heat passes its surface.
+  // Row of a particle with temp energy.  temperature < 0: a wall particle, with minus the temperature of the wall, 0
+  // mobility and softness, and instead of the pressure 1 if heat passes its surface, else 0.
 
   struct NoiseRow {
     double temperature;
@@ -62,45 +62,44 @@ namespace SPHDissipation {
     enum { TEMPERATURE, SPIN_MOBILITY, PRESSURE, SOFTNESS };    // numbers of a row
   };
 
-  // of a particle, when the work of its pairs is shared
+  // Accelerations of a particle, for the loop that shares the work of its pairs
 
   struct Acceleration {
     double v[3];
     double by_inertia;    // 1/J
-    double w[3];          // of the spin
+    double w[3];          // rate of the spin
     double unused;        // rows are loaded by four numbers
   };
 
-  // input and output of the loops, beside the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
+  // Input and output of the loops, besides the pairs that pass 1 has found; arrays of owned, ghost, and spare particles
 
   struct NoiseData {
     const double *tag;      // ID; zero of spare particles
     const double *reach;    // c sqrt(V), if DIRECTED
     const double *
-        share;    // s eta/(D c), of those whose bulk term has a negative coefficient, see NoiseStage
+        share;    // s eta/(D c) where the bulk term has a negative coefficient, else 0, see NoiseStage
     const NoiseRow *row;       // if ENERGY
     const double *mobility;    // dt/m, 0 of walls, if ENERGY
     bool unequal;              // the masses of the particles of the fluid differ
     double strength;           // square of central per unit friction along e
     std::uint64_t seed, step;
-    NoiseChannel of_pairs;      // whose numbers pairs have
-    double heat;                // 2 k/dt, of the random flow of heat
+    NoiseChannel of_pairs;      // channel of the numbers of pairs
+    double heat;                // 2 k/dt, for the random flow of heat
     const NoiseCoeff *coeff;    // by types of i and j, as in LoopData
     double dt;
-    const Acceleration *acceleration;    // of all forces and torques, after them
-    double *total;                       // what a loop sums up for each particle, accumulated
+    const Acceleration *acceleration;    // by all forces and torques
+    double *total;                       // sums of a loop by particle, accumulated
   };
 
   constexpr int MOST_NUMBERS = 16;    // kept for a pair: 8 random ones, 8 of the temperatures
 
-  // DIRECTED: two numbers along e, one of each partner
-  // ENERGY: at the temperatures of the particles, with the energy of motion and heat together constant
-
-  // CONDUCTION: the same with conduction and its random flow, and with walls
+  // DIRECTED: two numbers along e, one for each partner
+  // ENERGY: temperatures of the particles; kinetic energy and heat together are constant
+  // CONDUCTION: ENERGY with conduction and its random flow, and with walls
 
   enum class NoiseKind { PLAIN, DIRECTED, ENERGY, CONDUCTION };
 
-  // which numbers a pair needs
+  // Selects the random numbers of a pair
 
   struct NoiseForm {
     Terms terms;
@@ -108,8 +107,8 @@ namespace SPHDissipation {
     NoiseKind kind;
   };
 
-  // the noise of one pass 2: of pairs, and of the pairs of surfaces, data = nullptr: none; a random force of each owned
-  // particle, or nullptr
+  // Noise of one pass 2: of pairs, and of pairs across surfaces, data = nullptr: none; drag = three components of a random
+  // force for each owned particle, or nullptr
 
   struct StepNoise {
     struct Part {

@@ -11,8 +11,8 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The thermal noise in the loops, over the pairs that pass 1 has found: what pass 2 adds to each of them, and the sums
-// that this needs before; compiled as sph_dissipation_loops.h, which includes this file inside its namespace.
+// Thermal noise in the loops over the pairs of pass 1: the random forces of pass 2, and the sums that they need before;
+// sph_dissipation_loops.h includes this file inside its namespace.
 
 #include "sph_dissipation_random.h"
 
@@ -21,10 +21,10 @@
 //   1d, 2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
 //   3d: 0 to 2 = vector
 //   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
-// "Back" is the number of the particle with the higher ID, if each of both has its own along e, then "along e" is that
-// of the other one.  With a random flow of heat, which never needs it, it is the number of this; so is number 3 of
-// three-dimensional vectors.  Vectors and the flow are those of the particle with the lower ID, and opposite for the
-// other one; numbers along and across e need no sign, since e_ji = -e_ij.
+// DIRECTED: "along e" belongs to the particle with the lower ID, "back" to the one with the higher ID.  A random flow of
+// heat, never DIRECTED, has the number "back", or number 3 besides three-dimensional vectors.  Vectors and the flow are
+// those of the particle with the lower ID, and opposite for the other one; numbers along and across e need no sign, since
+// e_ji = -e_ij.
 
 template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct PairNumbers {
   static constexpr bool MANY = (ACROSS == 3 && (SPIN || DIRECTED));
@@ -61,7 +61,7 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct Pa
   }
 };
 
-// keys and part of the counter that are the same for all pairs
+// Keys and part of the counter that are the same for all pairs
 
 struct NoiseStep {
   PhiloxKeys pair;
@@ -77,8 +77,8 @@ struct NoiseStep {
   }
 };
 
-// Counter of a pair: both IDs, the step.  Of IDs of more than 32 bits the lower 46 count; the upper bits
-// of both go to those of the step, beside the 4 which that needs then.
+// Set the counter of a pair: both IDs, the step.  IDs of more than 32 bits count with their lower 46 bits: the upper ones
+// join the upper bits of the step, which needs 4 of them.
 
 SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Vec tag_j)
 {
@@ -91,14 +91,14 @@ SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Ve
                    product(shifted<32>(word[1]), all_words(1 << 18)));
 }
 
-// 1 where i has the lower ID, else -1
+// Return 1 where i has the lower ID, else -1
 
 SPH_INLINE Vec sign_of(double tag_i, Vec tag_j)
 {
   return if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
 }
 
-// numbers of NoiseCoeff
+// Places of the numbers in NoiseCoeff
 
 enum {
   CENTRAL,
@@ -119,7 +119,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct NoiseUse
   }
 };
 
-// A pair of particles with temperatures of their own: the noise has twice T_i T_j/(T_i + T_j), the friction the factor
+// A pair with temp energy: the noise has the temperature 2 T_i T_j/(T_i + T_j), the friction the factor
 // 1 - T_i T_j/(T_i + T_j)^2 (k/C_i + k/C_j), see the theory page
 
 struct OwnTemperatures {
@@ -136,8 +136,7 @@ struct OwnTemperatures {
   }
 };
 
-// What the random number along e is multiplied with, in units of sqrt(F V_i V_j); terms with BY_SQUARE have rsq as the
-// metric
+// Return the factor of the random number along e, in units of sqrt(F V_i V_j); forms with BY_SQUARE have rsq as metric
 
 template <bool BY_SQUARE> SPH_INLINE Vec central_of(const Vec *coeff, Vec rsq)
 {
@@ -147,7 +146,7 @@ template <bool BY_SQUARE> SPH_INLINE Vec central_of(const Vec *coeff, Vec rsq)
     return coeff[CENTRAL];
 }
 
-// gamma_ij = root times reach of j over c of i; metric = r^2, or r for mg/fr
+// Return root, with gamma_ij = root times reach of j over c of i; metric = r^2, or r for mg/fr
 
 template <bool BY_SQUARE>
 SPH_INLINE Vec root_of(const NoiseData &data, const Vec *coeff, Vec slope, Vec metric)
@@ -159,7 +158,7 @@ SPH_INLINE Vec root_of(const NoiseData &data, const Vec *coeff, Vec slope, Vec m
     return square_root(slope * metric * coeff[INVERSE_CENTRAL]);
 }
 
-// eta_i c_i = sum_j c_i gamma_ij xi_ij with the number xi_ij of i
+// Sum eta_i c_i = sum_j c_i gamma_ij xi_ij with the number xi_ij of i
 
 template <bool FR, bool BY_SQUARE, int ACROSS>
 void eta_loop(const LoopData &pairs, const NoiseData &data)
@@ -200,7 +199,7 @@ void eta_loop(const LoopData &pairs, const NoiseData &data)
   }
 }
 
-// what pass 2 adds to the force and torques of a block of pairs
+// Pass 2 without noise
 
 struct NoNoise {
   static constexpr bool ON = false, VECTOR = false, ENERGY = false, CONDUCTS = false;
@@ -211,8 +210,8 @@ struct NoNoise {
   SPH_INLINE void begin(int) {}
 };
 
-// The numbers of all pairs of a particle are made before its pairs are worked off, two blocks at once: the long chain of
-// operations of one overlaps with that of the other.
+// Noise of pass 2.  begin() draws the numbers of all pairs of a particle, two blocks at once, so that the long chains of
+// operations of both overlap; draw() then sets the noise of a block of pairs.
 
 template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNoise {
   static constexpr bool ON = true, VECTOR = (ACROSS == 3), CENTRAL_ONLY = (ACROSS == 0);
@@ -221,12 +220,12 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
   static constexpr bool ENERGY = (KIND == NoiseKind::ENERGY || CONDUCTS);
 
   Vec central;      // force on i along r_ij, times 1/r
-  Vec rest[3];      // and in other directions, if there is any
-  Vec torque[3];    // on both, which balances the force
+  Vec rest[3];      // force on i in other directions, if there is any
+  Vec torque[3];    // torque on both, which balances the force
   Vec spin[3];      // torque on i, opposite on j
-  Vec friction;     // factor of that of the pair, if ENERGY
+  Vec friction;     // factor of the friction of the pair, if ENERGY
   Vec flow;         // heat that i gets from j per time, if CONDUCTS
-  Vec wall;         // the same: 1 where j is of a wall, -1 where i is
+  Vec wall;         // if CONDUCTS: 1 where j belongs to a wall, -1 where i does, else 0
 
   struct Table : CoeffTable<NoiseCoeff> {
     Table(const LoopData &pairs) : CoeffTable(pairs.noise->coeff, pairs) {}
@@ -252,7 +251,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     }
   }
 
-  // d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
+  // Set the noise of a block of pairs; d = r_ij, by_metric = vv/metric, inverse = 1/r^2 if VECTOR
 
   SPH_INLINE void draw(const Offset *j, Vec dx, Vec dy, Vec dz, Vec slope, Vec vv, Vec metric,
                        Vec by_metric, Vec inverse)
@@ -298,7 +297,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
       }
     }
 
-    // of a vector, the part across e, or different parts along and across it
+    // take the part of a vector across e, or different parts along and across e
 
     if constexpr (VECTOR) {
       const Vec strength = square_root(vv);
@@ -334,7 +333,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     if constexpr (VECTOR) fz += rest[2];
   }
 
-  // to the torque on both and to the one on j, which is opposite on i
+  // Add to the torque on both and to the torque on j, opposite on i
 
   SPH_INLINE void add_torque(Vec *on_both, Vec *on_j) const
   {
@@ -344,7 +343,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     }
   }
 
-  // of the noise; u = relative velocity at the point of contact, s = difference of the spins
+  // Return the power of the noise; u = relative velocity at the point of contact, s = difference of the spins
 
   SPH_INLINE Vec power(Vec approach, Vec ux, Vec uy, Vec uz) const
   {
@@ -360,10 +359,10 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     return sum;
   }
 
-  // Heat that i gets from j, on average of the noise: each particle pays for the kinetic energy that the impulses of a
-  // step give to it, while of those of a pair each partner should pay half, and of those of a random pressure its
-  // particle all.  square = random force of the pair times it and friction; pressing times P/c^2 times r: of pressures P.
-  // work_loop() has the same of friction and of pressures that are not random.
+  // Return the heat that i gets from j, on average over the noise: each particle pays for the kinetic energy that it gets by
+  // the impulses of a step, but each partner should pay half for those of the pair, and a particle all for those of its
+  // random pressure.  square = random force of the pair times the sum of random force and friction; pressing = force over r,
+  // per P/c^2.  work_loop() sums the same for friction and pressures that are not random.
 
   SPH_INLINE Vec given(Vec square, Vec rsq, Vec pressing) const
   {
@@ -373,7 +372,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     return data.unequal ? heat + 0.25 * square * (data.mobility[i] - mobility) : heat;
   }
 
-  // the same for the torques on both and the one on j, which is opposite on i
+  // Return this heat for the torques: on both, and on j, opposite on i
 
   SPH_INLINE Vec given_by_torque(const Vec *on_both, const Vec *on_j) const
   {
@@ -397,7 +396,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
   double *next_number, *next;    // kept by begin() for the pairs of i: random numbers, all else
   Vec mobility, pressure, spin_mobility;    // of j
 
-  // random numbers of N blocks
+  // Draw and keep the random numbers of N blocks
 
   template <int N> SPH_INLINE void keep_numbers(const Offset *j)
   {
@@ -416,7 +415,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     }
   }
 
-  // Friction with a wall has the temperature and the heat of the particle of the fluid alone.
+  // Keep the temperatures of a block; friction with a wall has temperature and heat of the fluid particle alone.
 
   SPH_INLINE void keep_temperatures(const Offset *j)
   {
@@ -459,8 +458,8 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
   }
 };
 
-// count random numbers of each of the particles from ... to - 1 of n, and of some behind them, the next number after the
-// ones of all particles and BLOCK more
+// Draw count random numbers for each of the particles from ... to - 1 of n, and for some behind them; number c of particle k
+// is numbers[c * (n + BLOCK) + k]
 
 inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int from, int to, int n,
                              int count, double *numbers)

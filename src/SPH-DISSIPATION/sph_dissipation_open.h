@@ -56,17 +56,16 @@ namespace SPHDissipation {
           (x[2] - point[2]) * normal[2];
     }
     bool beside(const double *x) const;                  // beyond the sides of the zone
-    bool beside(const double *x, double slack) const;    // ... and no place so near is within them
+    bool beside(const double *x, double slack) const;    // ... by more than slack
 
-    // Distance of a place from the line along the normal through another one, and along that line, with
-    // periodic images
+    // Distance of a place from the line along the normal through another one, and along that line, with periodic images
     struct Offset {
       double beside, ahead;
       double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
     };
     Offset offset(const double *from, const double *to) const;
 
-    bool is_at(const double *) const;    // this point, with this normal after it
+    bool is_at(const double *) const;    // has the point and the normal of these six numbers
     bool limited() const { return region; }
 
     int nnodes() const { return count[0] * count[1]; }
@@ -123,7 +122,7 @@ namespace SPHDissipation {
       }
   }
 
-  // What is measured of the fluid
+  // Measured quantities of the fluid
 
   struct OpenWave {
     double j;         // rho c u' + p', see sph_dissipation_characteristics.h
@@ -150,8 +149,8 @@ namespace SPHDissipation {
     void init();
     void set_times(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // Measure at this time: begin(); add() each owned particle of the fluid; finish() with the sums over all
-    // processors of the numbers that append() gives.  Until then, what is asked for below is of the step before.
+    // Measure at this time: begin(); add() each owned particle of the fluid; finish() with the sums over all processors of
+    // the numbers of append().  Until then, the functions below give results of the step before.
     void begin(double time);
     void add(const double *x, double height, double volume, const OpenSample &, Kernel,
              double radius);
@@ -163,7 +162,7 @@ namespace SPHDissipation {
     bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
     bool average(const Spot &, OpenSample &) const;                          // over time
     OpenWave wave(const Spot &, double time) const;                          // at a time before
-    double distance(const Spot &) const;    // from the plane to the middle of what is measured
+    double distance(const Spot &) const;    // from the plane to the middle of the measured fluid
 
     void mean_at_plane(double *p, double *u) const;    // mean over all nodes, now
     bool any() const { return !history.empty(); }
@@ -172,7 +171,7 @@ namespace SPHDissipation {
 
     // state in a restart file
     std::vector<double> pack() const;
-    bool unpack(const std::vector<double> &);    // false if it is of other nodes
+    bool unpack(const std::vector<double> &);    // false if the state has other nodes
 
    private:
     static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
@@ -190,7 +189,7 @@ namespace SPHDissipation {
       double value[NVALUE];       // at the node and that distance
       double slope[NVALUE];       // along the normal
       double mean[NVALUE];        // over time
-      double known;               // > 0: there has been fluid
+      double known;               // > 0: fluid was here at any time
     };
 
     struct Past {
@@ -209,7 +208,7 @@ namespace SPHDissipation {
     bool interpolate(const Spot &, int nvalue, double *value, Function &&of_node) const;
   };
 
-  // What a buffer zone prescribes: velocity, density or pressure, internal energy or temperature, and spin
+  // Prescribed values of a buffer zone: velocity, density or pressure, internal energy or temperature, and spin
 
   class OpenValues : protected Pointers {
    public:
@@ -238,7 +237,7 @@ namespace SPHDissipation {
     bool is_given[NQUANTITY] = {};
     bool any_variable = false, needs_heat = false;
 
-    const char *fault(int k, double) const;    // says why a value is refused; nullptr: it is not
+    const char *fault(int k, double) const;    // why a value is inadmissible; nullptr: admissible
   };
 
   // State of a particle of a zone: pressure, density, heat per mass
@@ -247,8 +246,8 @@ namespace SPHDissipation {
     double p, rho, q;
   };
 
-  // Boundary condition of a buffer zone: velocity, pressure, density, and heat of its particles, from what is
-  // prescribed and from what the fluid does.
+  // Boundary condition of a buffer zone: velocity, pressure, density, and heat of its particles, from the prescribed values
+  // and from the samples of the fluid.
   // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
   class OpenCondition : protected Pointers {
@@ -265,8 +264,8 @@ namespace SPHDissipation {
     double clock = 0.0;             // time of the zone, which reset_timestep does not change
     bool is_new = false;    // no particle has a state yet: the heat of each is that without waves
 
-    void read(Keywords &);    // Set what the keyword says, if it is one of a condition.
-    void check();             // errors for keywords without an effect, and for too few of them
+    void read(Keywords &);    // Read the keyword, if it belongs to a condition.
+    void check();             // Stop for keywords without an effect, and for too few keywords.
 
     void init(const FluidModel &);
     bool given_velocity() const { return values.given(OpenValues::VX); }
@@ -283,21 +282,21 @@ namespace SPHDissipation {
     OpenState state(int i) const;
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
     double heat(int i) const { return reference(i, ZONE).q; }    // per mass, without waves
-    double temperature(int i, const OpenState &) const;          // with which it conducts heat
+    double temperature(int i, const OpenState &) const;          // in the conduction of heat
     double sound_at_rest(int i, bool of_zone) const;    // at the density rho0; also of the fluid
 
     OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
     void keep(int i, const OpenState &) const;    // the particle has this state
 
-    // Density at which a particle has its internal energy, 0: not known.  No force computation changes it, and it
-    // moves to other processors and into restart files with the particle.
+    // Density at which a particle has its internal energy, 0: not known.  No force computation changes this density; it
+    // migrates with the particle, also into restart files.
 
     double &density_of_energy(int i) const;
 
     // Functions of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
 
     OpenSample sample(int i, const Particle &, double more) const;
-    bool is_supersonic(int i, const Particle &) const;    // on its way out
+    bool is_supersonic(int i, const Particle &) const;    // leaves faster than sound
 
    private:
     enum Kind { LAGGED, CHARACTERISTIC, FIXED };
@@ -313,8 +312,7 @@ namespace SPHDissipation {
     Kind kind = LAGGED;
     int order = -1;    // extrapolation of values from inside, kind fixed
 
-    // The state from which waves are counted at a particle of zone or fluid: what is prescribed, else the
-    // average over time of what the fluid had
+    // Reference state of waves at a particle of zone or fluid: the prescribed one, else the average of the fluid over time
 
     struct Reference {
       OpenPlane::Spot spot;
@@ -340,10 +338,9 @@ namespace SPHDissipation {
 
   class OpenBand;
 
-  // Creates and deletes the particles at the far end of a buffer zone, before neighbor lists are built
-  // anew.  Particles stand in rows along the normal of the plane: a copy of the last one of a row comes
-  // behind it as it moves on, those beyond the end are deleted.  Results do not depend on the number of
-  // processors.
+  // Creates and deletes the particles at the far end of a buffer zone, before new neighbor lists.  Particles form rows along
+  // the normal of the plane: when the last one of a row moves on, a copy is created behind it; particles beyond the end are
+  // deleted.  Results do not depend on the number of processors.
 
   class ZoneLattice : protected Pointers {
    public:
@@ -385,9 +382,9 @@ namespace SPHDissipation {
     int fluidbit = 0;
     double given_spacing = 0.0, spacing = 0.0, half_width = 0.0, support = 0.0;
     double moved = 0.0;
-    tagint highest = 0;           // tag that was ever given
-    bool unknown_end = true;      // it is not known how far the rows reach
-    bool unknown_sides = true;    // nor whether there is something else among them
+    tagint highest = 0;           // highest ID that was ever given
+    bool unknown_end = true;      // the reach of the rows is not known
+    bool unknown_sides = true;    // the width of the rows, and others among them, are not known
     Distance distance;
 
     double step(int i) const;    // from an owned particle to the next one of its row

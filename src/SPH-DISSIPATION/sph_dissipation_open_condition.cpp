@@ -197,7 +197,7 @@ const EosParams &OpenCondition::eos(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the speed of waves that leave: where states add to it, it lies between those of slow and fast waves.
+   Return the speed of waves that leave; with states, a speed between those of slow and fast waves.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::sound(int i, double rho, double q) const
@@ -225,7 +225,7 @@ bool OpenCondition::enters(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   The field is that of a rate, which particles of a zone do not have.
+   Return the density of energy, which uses the field of a rate that particles of a zone do not have.
 ------------------------------------------------------------------------- */
 
 double &OpenCondition::density_of_energy(int i) const
@@ -234,7 +234,7 @@ double &OpenCondition::density_of_energy(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether a particle gets the heat that is prescribed: what enters, and all of a new zone.
+   Return whether a particle gets the prescribed heat: one that enters, and all particles of a new zone.
 ------------------------------------------------------------------------- */
 
 bool OpenCondition::gets_heat(int i, Side side) const
@@ -257,7 +257,8 @@ OpenState OpenCondition::own_state(int i, Side side) const
 }
 
 /* ----------------------------------------------------------------------
-   A given temperature holds for the whole zone, so that heat is conducted against a stream that leaves, too.
+   Return the temperature of a particle in conduction.  A given temperature holds for the whole zone, so that heat is also
+   conducted against a stream that leaves.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::temperature(int i, const OpenState &state) const
@@ -342,8 +343,7 @@ OpenCondition::Reference OpenCondition::reference(int i, Side side) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave at a particle of the zone.  With condition lagged it is the wave that has reached
-   the particle since it left the fluid.
+   Return the wave at a particle of the zone; with condition lagged, the wave that left the fluid earlier and arrives now.
 ------------------------------------------------------------------------- */
 
 OpenWave OpenCondition::wave(const Reference &ref) const
@@ -355,8 +355,8 @@ OpenWave OpenCondition::wave(const Reference &ref) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave less its mean over time.  It acts instead of the wave if one of velocity and
-   state is given and the other one is from inside: so the given one holds in the mean over time.
+   Return the wave less its mean over time, for one of velocity and state given and the other one from inside: then the given
+   one holds in the mean over time.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::changes(const Reference &ref, double wave) const
@@ -365,8 +365,8 @@ double OpenCondition::changes(const Reference &ref, double wave) const
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocity of a particle of the zone.  Its component along the plane is the prescribed one where
-   fluid enters; particles that leave keep theirs.
+   Set the velocity of a particle of the zone.  The component along the plane is the prescribed one where fluid enters;
+   particles that leave keep their component.
 ------------------------------------------------------------------------- */
 
 void OpenCondition::velocity(int i, double *u) const
@@ -419,8 +419,8 @@ OpenState OpenCondition::state(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the state at another pressure and the same entropy.  Its density is that of the fluid, in which
-   this part of the pressure is of states.
+   Return the state at another pressure and the same entropy; strain = part of the pressure from states, which does not
+   determine the density.
 ------------------------------------------------------------------------- */
 
 OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p, double strain) const

@@ -27,21 +27,21 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// The particles near the far end of a buffer zone, of all processors, also those not of the zone
+// The particles near the far end of a buffer zone, of all processors, in the zone or not
 
 class SPHDissipation::OpenBand : protected Pointers {
  public:
   // Collect the particles between two heights.
   OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
 
-  // Tell whether one of the zone, or of any kind, is behind x, not farther beside it than this.
+  // Return whether a particle of the zone, or of any kind, is behind x, at most beside from the line through x.
   bool has_behind(const double *x, double beside, bool any_kind = false) const;
 
-  // Return the distance of the nearest one of the zone behind x, or in front of it, not farther beside it
-  // than this; infinite if there is none.
+  // Return the distance of the nearest particle of the zone behind x, or in front of x, at most beside from the line through
+  // x; infinite if there is none.
   double next(const double *x, double beside, bool behind) const;
 
-  // Tell whether any one, or one that is not of the zone, is closer to x than this.
+  // Return whether any particle, or one that is not of the zone, is closer to x than this distance.
   bool has_near(const double *x, double distance, bool other = false) const;
 
  private:
@@ -88,8 +88,8 @@ int OpenBand::nearest_node(const double *x) const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether function(k, offset from x) holds for a particle k not farther than reach beside x.  It is
-   called for all of these, and for some farther ones.
+   Return whether function(k, offset from x) is true for any particle k at most reach beside x.  Until then, all of these and
+   some farther particles are tried.
 ------------------------------------------------------------------------- */
 
 template <class Function>
@@ -273,7 +273,7 @@ void ZoneLattice::renew(const Refresh &refresh)
   bigint removed = nbefore - atom->nlocal, change = 0;
   if (by_distance()) refresh({});    // particles have changed sides, and places in memory
 
-  // since the last time, no row can have come farther from the end than this
+  // largest distance of the last particle of a row from the end, by the motion since the last time
 
   double mine[2] = {moved, my_largest_spacing()};
   double all[2];
@@ -326,10 +326,9 @@ std::vector<int> ZoneLattice::last_ones(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   Create a particle behind each of the last ones, which it replaces in the list.  False if there was
-   none on any processor.
-   The mass between two particles of a row is that of one.  So, where distances depend on the place, the
-   new particle is as far away as the harmonic mean of the two, to second order.
+   Create a particle behind each of the last ones, and replace the last one by the new one in the list.  Return false if no
+   processor created any.  The mass between two particles of a row is that of one particle: where distances depend on the
+   place, the distance of the new particle is the harmonic mean of those at both, to second order.
 ------------------------------------------------------------------------- */
 
 bool ZoneLattice::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,

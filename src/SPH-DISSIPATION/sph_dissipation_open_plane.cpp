@@ -43,7 +43,7 @@ void OpenPlane::set(char **arg)
   if (domain->dimension == 2 && normal[2] != 0.0)
     error->all(FLERR, "{}: the normal of the plane must lie in the xy plane in 2d", owner);
   if (!(length > 0.0)) error->all(FLERR, "{}: length must be > 0, not {}", owner, arg[6]);
-  for (double &component : normal) component /= largest;    // whose square may be out of range
+  for (double &component : normal) component /= largest;    // squares may be out of range
   MathExtra::norm3(normal);
 }
 
@@ -83,8 +83,8 @@ bool OpenPlane::beside(const double *x, double slack) const
 }
 
 /* ----------------------------------------------------------------------
-   Take the image that is least beside the normal: in a box that is not orthogonal, that need not be the
-   one that is closest along its edges.
+   Return the offset of the image that is least beside the normal: in a box that is not orthogonal, this image need not be
+   the closest one along the edges.
 ------------------------------------------------------------------------- */
 
 OpenPlane::Offset OpenPlane::offset(const double *from, const double *to) const
@@ -159,7 +159,7 @@ void OpenPlane::set_tangents()
   }
 
   if (known == 0) {
-    double axis[3] = {0.0, 0.0, 0.0};    // the one farthest from the normal
+    double axis[3] = {0.0, 0.0, 0.0};    // axis farthest from the normal
     if (domain->dimension == 2)
       axis[2] = 1.0;
     else
@@ -282,8 +282,8 @@ void OpenSamples::init()
 }
 
 /* ----------------------------------------------------------------------
-   Take back what was measured at this time: forces are computed again at the start of a run, and twice
-   in a step with a viscous stage.
+   Begin to measure at a time; undo a measurement of the same time: forces are computed again at the start of a run, and
+   twice in a step with viscous rkl2 or implicit.
 ------------------------------------------------------------------------- */
 
 void OpenSamples::begin(double time)

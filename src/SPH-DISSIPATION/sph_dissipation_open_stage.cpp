@@ -191,8 +191,8 @@ void OpenStage::find_rows(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   Sum up what the pairs of a zone give their particles of the fluid: force, couple, half of the heat of
-   shear and spin, the heat of conduction, and the part P V w_j (-F r.u) / c of the work of the pressure.
+   Sum up force, couple, half of the heat of shear and spin, the heat of conduction, and the part P V w_j (-F r.u) / c of the
+   work of the pressure, that the particles of the fluid get from their pairs with a zone.
 ------------------------------------------------------------------------- */
 
 OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
@@ -202,7 +202,7 @@ OpenImpact OpenStage::impact(NeighList *list, std::size_t k)
   const bool by_volume = (engine.constants().bulk == Bulk::VOLUME);
   const bool conducts = engine.constants().conducts();
 
-  // with newton off, what a pair of two processors gives to the ghost atom is known to its owner
+  // with newton off, the owner of a ghost atom sums the same pair itself
 
   const int mine = nforce();
 

@@ -23,19 +23,19 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What a buffer zone does to the fluid in one force computation
+  // Forces, work and heat of a buffer zone on the fluid in one force computation
 
   struct OpenImpact {
     double force[3], torque[3];    // torque about the origin, of forces and couples
     double power;                  // work and heat
 
-    // Add what acts on a particle of the fluid; heat = that of all other channels.
+    // Add the force, or the couple, on a particle of the fluid; heat = of all channels but the first.
     void add(const Particle &, const ForceSum &, double heat);
     void add(const Spin &, const double *couple);
   };
 
-  // Gives the particles of buffer zones the density and pressure that act in the pair forces, and sums
-  // up what the zones do to the fluid, from the pairs of a particle of a zone and one of the fluid.
+  // Sets the density and pressure of particles of buffer zones that act in the pair forces, and sums up the impact of the
+  // zones on the fluid, over the pairs of a particle of a zone and one of the fluid.
 
   class OpenStage : public Stage {
    public:
@@ -46,10 +46,10 @@ namespace SPHDissipation {
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // groups of all zones
     int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
-    double state_energy(int i) const;         // energy that states hold, at the last densities
+    double state_energy(int i) const;         // energy of the states, at the last densities
 
-    // from OpenZone::set_states(): density and pressure of a particle, which keeps its bulk term; with which temperature it
-    // conducts heat, if the fluid does
+    // Called by OpenZone::set_states(): set density and pressure of a particle, which keeps its bulk term; set its
+    // temperature in conduction, if the fluid conducts heat
     void set_state(int i, double rho, double pressure);
     void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }
@@ -58,7 +58,7 @@ namespace SPHDissipation {
       return engine.constants().states ? engine.state_pressure[i] : 0.0;
     }
 
-    void run();                       // after the pressures, before those of boundaries
+    void run();                       // after the pressures, before BoundaryStage::run()
     void sum_impacts(NeighList *);    // after pass 2
     double memory_usage() const override
     {
@@ -79,7 +79,7 @@ namespace SPHDissipation {
 
     PairSubset pairs;    // pairs of fluid and one zone
 
-    // Sums over these pairs, which are zero outside of impact(): it works in proportion to the pairs.
+    // Sums over these pairs; zero outside of impact(), whose work then is proportional to the number of pairs.
     std::vector<ForceSum> forces;
     ChannelSums side;
     std::vector<double> divergence, flow;

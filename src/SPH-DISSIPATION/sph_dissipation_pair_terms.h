@@ -11,15 +11,14 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// The pairs of particles i and j that the loops work off, in vectors on the CPU, one by one on a device.
-// Included in more than one namespace, as sph_dissipation_kernel_shapes.h, which must have a type Vec,
-// square_root(a), larger(a, b), and if_positive(a, b), see sph_dissipation_simd.h.
+// Terms of pairs of particles i and j: in vectors of pairs on the CPU, for single pairs on a device.  Included in more than
+// one namespace, as sph_dissipation_kernel_shapes.h; each namespace must have a type Vec, square_root(a), larger(a, b), and
+// if_positive(a, b), see sph_dissipation_simd.h.
 //
-// r = r_i - r_j, u = u_i - u_j, slope = F; P1, P2, P3: see sph_dissipation_channels.h.  Forces are those on
-// i, opposite on j; of the heat of a pair half goes to each.
+// r = r_i - r_j, u = u_i - u_j, slope = F; P1, P2, P3: see sph_dissipation_channels.h.  Forces are those on i, opposite on
+// j; each particle gets half of the heat of a pair.
 
-// added to r and r^2 before dividing: two particles at the same point, r = 0, exert no force on each
-// other
+// Added to r and r^2 before a division: two particles at the same point, r = 0, exert no force on each other
 
 constexpr double TINY = 1.0e-300;
 
@@ -28,21 +27,21 @@ template <class Real> SPH_INLINE Real dot(const Real *a, const Real *b)
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// F V_i V_j
+// Return F V_i V_j, 0 for r = 0
 
 template <class Real> SPH_INLINE Real volumes_slope(Real rsq, double vol_i, Real vol_j, Real slope)
 {
   return if_positive(rsq, vol_i * vol_j * slope);
 }
 
-// pressure and bulk term of the form density, P1 (12), (18): F (g_i + g_j) r
+// Return the force of pressure and bulk term of the form density, F (g_i + g_j) r, over r; P1 (12), (18)
 
 template <class Real> SPH_INLINE Real pressing_term(double g_i, Real g_j, Real slope)
 {
   return (g_i + g_j) * slope;
 }
 
-// metric of the drag along e: r or r^2
+// Return the metric of the drag along e: r or r^2
 
 template <bool BY_DISTANCE, class Real> SPH_INLINE Real metric_of(Real rsq)
 {
@@ -52,7 +51,7 @@ template <bool BY_DISTANCE, class Real> SPH_INLINE Real metric_of(Real rsq)
     return rsq;
 }
 
-// u* = u - (w_i + w_j)/2 x r with the spins w: the velocity of slip at the point of contact, P3 (12)
+// Replace u by u* = u - (w_i + w_j)/2 x r with the spins w: the velocity of slip at the point of contact, P3 (12)
 
 template <class Real>
 SPH_INLINE void slip_velocity(const double *w_i, const Real *w_j, const Real *r, Real *u)
@@ -65,17 +64,17 @@ SPH_INLINE void slip_velocity(const double *w_i, const Real *w_j, const Real *r,
   u[2] = u[2] - mx * r[1] + my * r[0];
 }
 
-// what the terms of the channels read of a pair, and what they add to
+// Input and sums of the terms of a pair
 
 struct PairState {
-  const Vec *coeff;    // of its types, in the order of PairCoeff
+  const Vec *coeff;    // of the types, in the order of PairCoeff
   Vec r[3];
   Vec u[3];         // in add_vector(), with spins, the velocity of slip
   Vec s[3];         // difference of the spins
   Vec approach;     // r.u
   Vec vv;           // F V_i V_j
   Vec by_metric;    // F V_i V_j / metric
-  Vec mu[2];        // of i and j, if it is not constant; negative of a boundary particle
+  Vec mu[2];        // of i and j, if mu is not constant; negative: boundary particle
 
   Vec central;           // force on i along r, times 1/r
   Vec f[3];              // force on i
@@ -84,18 +83,19 @@ struct PairState {
   Vec heat[NCHANNEL];    // half of the heat, by channel
 };
 
-// Term of a channel, with some of its coefficients, in pair.coeff FIRST to LAST.  First come the terms along r, then all others.  They add to
-// force, torques, and the heat of their channel, which begin with zero (central: with the pressure).
+// Term of a channel, with the coefficients FIRST to LAST in pair.coeff.  add_central() of all terms runs before
+// add_vector().  Terms add to force, torques, and the heat of their channel, which begin with zero (central: with the
+// pressure).
 
 template <class Of, int FIRST_COEFF, int LAST_COEFF = FIRST_COEFF> struct PairTerm {
   static constexpr int CHANNEL = Channels::place<Of>();
   static constexpr int FIRST = Channels::first<Of>() + FIRST_COEFF;
   static constexpr int LAST = Channels::first<Of>() + LAST_COEFF;
   static constexpr bool CENTRAL = false, VECTOR = false;    // has add_central(), add_vector()
-  static constexpr bool BY_DISTANCE = false;                // its metric is r
+  static constexpr bool BY_DISTANCE = false;                // metric r instead of r^2
   static constexpr bool BY_SQUARE = false;                  // along r, in units of F r^2 V_i V_j
   static constexpr bool SPINS = false;
-  static constexpr bool BY_RATE = false;    // it has the viscosities of the particles
+  static constexpr bool BY_RATE = false;    // reads the viscosities of the particles
   template <class Pair> static SPH_INLINE void add_central(Pair &) {}
   template <class Pair> static SPH_INLINE void add_vector(Pair &) {}
 };
@@ -113,7 +113,7 @@ template <class Of, int COEFF> struct AlongBySquare : PairTerm<Of, COEFF> {
   }
 };
 
-// the heat of the channels alone
+// Compute the heat of the channels alone
 
 template <class Form> SPH_INLINE void find_heat(PairState &pair)
 {
@@ -123,10 +123,9 @@ template <class Form> SPH_INLINE void find_heat(PairState &pair)
   Form::add_vector(pair);
 }
 
-// Of the heat of a pair of the fluid and a boundary, the fluid gets all.  It is the work of the friction against the boundary's own
-// velocity and spin, which those in the pair exceed.  With the half q, a quadratic form, of the pair and of the excess alone it is
-// q(u) + q(u - excess) - q(excess).  After add_vector(); of other pairs, where is_boundary is 0, no heat changes.
-// excess: a copy of the pair with u, s, and approach of the excess
+// After add_vector(): give the fluid all heat of a pair with a boundary; no change where is_boundary is 0.  The heat is the
+// work of the friction at the boundary's own velocity and spin: q(u) + q(u - excess) - q(excess), with q, a quadratic form,
+// half of the heat of the pair.  excess: a copy of the pair with u, s, and approach of the excess
 
 template <class Form>
 SPH_INLINE void add_boundary_heat(PairState &pair, PairState &excess, Vec is_boundary)
@@ -143,8 +142,8 @@ SPH_INLINE void add_boundary_heat(PairState &pair, PairState &excess, Vec is_bou
     if (Form::heats(c)) pair.heat[c] += is_boundary * (own.heat[c] - excess.heat[c]);
 }
 
-// A flow, see sph_dissipation_flows.h: mean of the coefficients of two particles, 0 if one of them has none; what i gets from
-// j per time, F V_i V_j = vv
+// A flow, see sph_dissipation_flows.h: return the mean of the coefficients of two particles, 0 if one of them is 0; return
+// the rate that i gets from j, with vv = F V_i V_j
 
 template <class Own, class Real> SPH_INLINE Real mean_coefficient(Own a, Real b)
 {
@@ -157,8 +156,9 @@ SPH_INLINE Real flow_of_pair(Real coefficient, Real vv, double value_i, Real val
   return 2.0 * coefficient * vv * (value_j - value_i);
 }
 
-// Diffusion of volume, see sph_dissipation_diffusion_terms.h: F over the mean of two impedances; what a pair adds, over V_j,
-// to the sums of pressure_gradient(), of the difference p_i - p_j; this difference without that of a gradient
+// Diffusion of volume, see sph_dissipation_diffusion_terms.h: return F over the mean of two impedances; set the terms of a
+// pair, over V_j, in the sums of pressure_gradient(), from difference = p_i - p_j; return the difference less that of a
+// gradient
 
 template <class Real> SPH_INLINE Real slope_by_impedance(Real slope, double z_i, Real z_j)
 {

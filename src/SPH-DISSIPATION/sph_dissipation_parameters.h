@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_PARAMETERS_H
 #define LMP_SPH_DISSIPATION_PARAMETERS_H
 
-// What the loops, the stages, the noise, and the device read of the fluid.  No LAMMPS include.
+// Parameters of the fluid, for loops, stages, noise, and device.  No LAMMPS include.
 
 #include "sph_dissipation_channels.h"
 
@@ -23,32 +23,32 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // of a type
+  // Parameters of a type
 
   struct TypeParameters {
     EosParams eos;
     double zeta = 0.0;    // coefficient of the bulk term
-    // if mu is not constant, and zeta on mu: zeta = zeta_at_0 + zeta_by_mu mu
+    // mu of pair_coeff; if mu is not constant, zeta = zeta_at_0 + zeta_by_mu mu
     double mu = 0.0, zeta_at_0 = 0.0, zeta_by_mu = 0.0;
     double heat_capacity = 0.0;         // per mass
     double flow[Flows::NUMBER] = {};    // coefficients
     TypeCoeffs keywords;                // of the channels
-    int other = 1;             // its particles belong to another style of pair_style hybrid
-    States::Numbers states;    // in a time step
+    int other = 1;                      // 1: the type belongs to another style of pair_style hybrid
+    States::Numbers states;             // for the time step
   };
 
-  // What pair_style and pair_coeff have set and what follows from it, for one run or until a coefficient is
-  // changed.  FluidModel::derive() makes it; all others read it.
+  // Settings and coefficients of the fluid and what follows from them, for one run or until a coefficient changes.
+  // FluidModel::derive() sets them; all other code reads them.
 
   struct Parameters : Constants {
     std::vector<TypeParameters> type;    // by type, from 1
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
-    std::vector<double> pair_energy;     // the same, a of the energy of a pair; empty: none
+    std::vector<double> pair_energy;     // a of the energy of pairs, as pair; empty: none
 
-    void set_uniform();          // uniform, inviscid, and optional, from pair
-    void set_alike();            // what belongs to flows and sound, from type
-    void set_step(double dt);    // the time step of the states
-    // each partner of a pair has a random number of its own, see NoiseStage
+    void set_uniform();          // sets uniform, inviscid, and optional, from pair
+    void set_alike();            // sets the numbers of flows and sound, from type
+    void set_step(double dt);    // sets the numbers of the states for a time step
+    // true: each partner of a pair has its own random number, see NoiseStage
     bool directed_noise() const;
   };
 
@@ -65,7 +65,7 @@ namespace SPHDissipation {
           if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
           if (a != 0.0) inviscid = false;
         }
-    for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // of which the noise has coefficients
+    for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // the noise has the flow of heat
       if (type[i].flow[HEAT_FLOW] != type[1].flow[HEAT_FLOW]) uniform = false;
   }
 

@@ -14,8 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 #define LMP_SPH_DISSIPATION_PARTICLE_TERMS_H
 
-// Between the passes: what follows for one particle from its density; its states and its heat.  No LAMMPS
-// include.
+// Terms of single particles between the passes: values that follow from the density, states, and heat.  No LAMMPS include.
 
 #include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_parameters.h"
@@ -26,8 +25,8 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // P/c^2 of pass 2, of the pressure P with the bulk term (bulk density) or without (otherwise), the
-  // volume V = w/c, and the reference volume w
+  // Return P/c^2 for pass 2, from the pressure P with the bulk term (bulk density) or without (otherwise), the volume
+  // V = w/c, and the reference volume w
 
   SPH_FUNCTION double pressure_term(double total, double vol, double weight)
   {
@@ -35,8 +34,8 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
-  // The states and the heat of owned particles, on the host or on a device, with their densities and internal energies,
-  // and the rates of these; energies are those of the last forces.  See StateList and Eos.
+  // States and heat of owned particles, on the host or on a device, from their densities and internal energies, and the
+  // rates of both; the energies are those of the last forces.  See StateList and Eos.
 
   struct StateRows {
     const TypeParameters *types;    // by type, from 1
@@ -44,12 +43,12 @@ namespace SPHDissipation {
     const double *rmass, *rho, *drho;
     Eos eos;
     const double *esph, *desph;
-    double *state[States::MOST];    // nullptr where there is no room
+    double *state[States::MOST];    // nullptr without room
     const double *by_walls =
-        nullptr;    // energy that the walls hold of each particle; nullptr: none
-    const double *rate[Flows::NUMBER] = {};    // of the flows, of the last forces; nullptr: none
+        nullptr;    // energy of each particle in the forces of walls; nullptr: none
+    const double *rate[Flows::NUMBER] = {};    // by flows in the last forces; nullptr: none
 
-    // state of a channel with one, and the rate of it by its flow
+    // Return the state of a channel with a single one; return its rate by the flow of the channel
     template <class Channel> SPH_FUNCTION double state_of(int i) const
     {
       return state[States::first<Channel>()][i];
@@ -62,8 +61,8 @@ namespace SPHDissipation {
 
     SPH_FUNCTION const States::Numbers &numbers(int i) const { return types[type[i]].states; }
 
-    // Set the states of a new particle; temperature = the one that it gets, negative: it has its energy already.
-    // at_rest: strains are zero, also of others
+    // Set the states of a new particle; temperature = that of the new particle, negative: it has its energy already.
+    // at_rest: the strains of all particles become zero
 
     SPH_FUNCTION void begin(int i, double temperature = -1.0, bool at_rest = false) const
     {
@@ -76,7 +75,7 @@ namespace SPHDissipation {
       });
     }
 
-    // particles that are not fluid have no state
+    // Set the states to 0: particles that are not fluid have none
 
     SPH_FUNCTION void forget(int i) const
     {
@@ -84,7 +83,7 @@ namespace SPHDissipation {
         if (one) one[i] = 0.0;
     }
 
-    // one time step later; noise[k * each] = that of the state at place k < end
+    // Advance the states by a time step; noise[k * each] = noise of the state at place k < end
 
     SPH_FUNCTION void advance(int i, const double *noise, std::size_t each, int end) const
     {
@@ -94,7 +93,8 @@ namespace SPHDissipation {
       });
     }
 
-    // pressure; energy, and its part that is elastic; energy per time that becomes heat, added to that of channels
+    // Return the pressure of the states; return their energy, or its elastic part; add the energy per time that becomes heat
+    // to the heat by channel
 
     SPH_FUNCTION double pressure(int i) const
     {
@@ -121,8 +121,8 @@ namespace SPHDissipation {
       });
     }
 
-    // rate of the temperature at constant states: of what the rate of the internal energy leaves besides the energy
-    // of the equation of state without heat, and of the strains
+    // Return the rate of the temperature at constant states, from the rate of the internal energy less the work of the
+    // elastic pressure and of the states
 
     SPH_FUNCTION double temperature_rate(int i) const
     {
@@ -131,7 +131,8 @@ namespace SPHDissipation {
       return (desph[i] / rmass[i] - p * drho[i] / (rho[i] * rho[i])) / par.heat_capacity;
     }
 
-    // what the internal energy has beyond that of the equation of state without heat, of the states, and of walls
+    // Return the heat: the internal energy less the elastic energy of the equation of state, and less held(), the energies
+    // of states and in the forces of walls
 
     SPH_FUNCTION double thermal_energy(int i) const
     {
@@ -139,7 +140,7 @@ namespace SPHDissipation {
     }
     SPH_FUNCTION double held(int i) const { return by_walls ? energy(i) + by_walls[i] : energy(i); }
 
-    // temperature, 0 without heat capacity; the internal energy at a temperature
+    // Return the temperature, 0 without heat capacity; return the internal energy at a temperature
 
     SPH_FUNCTION double temperature(int i) const
     {
@@ -154,9 +155,9 @@ namespace SPHDissipation {
     }
   };
 
-  // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  A
-  // function is about particle i; the stages of the host and those of the device call it for each of them.
-  // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles
+  // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  The functions are for
+  // one particle i; stages on the host and on the device call them.  bound = of LimitStage, nullptr without; not_fluid =
+  // bits of the groups of boundary particles
 
   struct ParticleRows {
     Constants par;
@@ -167,25 +168,25 @@ namespace SPHDissipation {
     DensitySum *density;     // of pass 1
     double *zeta_term;       // zeta cdot/c
     const double *weight;    // reference volume w of particle i: weight[i * each]
-    int each;                // 0: it is 1 for all, 1
+    int each;                // 1; or 0: weight[0] = 1 for all
 
     const int *type, *mask;
     const double *rmass;
     double *esph;
     double *rho, *drho, *vfrac;
-    double *desph;    // zero when the step begins
+    double *desph;    // zero before the forces
 
     StateRows states;
-    double *state_pressure;          // read if there are states
+    double *state_pressure;          // read if any type has states
     FlowRow *flow[Flows::NUMBER];    // of the flows of any type
     double *rho_sum = nullptr;       // see Fields; with density continuity
-    double *viscosity = nullptr;     // mu, if that of any type is not constant
+    double *viscosity = nullptr;     // mu, if mu of any type is not constant
 
-    // w of the form volume mass
+    // Return w of the form volume mass
 
     SPH_FUNCTION double reference_volume(int i) const { return rmass[i] / types[type[i]].eos.rho0; }
 
-    // volume V = w/c, mass density rho = m/V and its rate; particles of other styles keep their density.
+    // Set the volume V = w/c, the mass density rho = m/V and its rate; particles of other styles keep their density.
     // P1 (5), (6)
 
     SPH_FUNCTION void set_density(int i) const
@@ -200,10 +201,10 @@ namespace SPHDissipation {
       vfrac[i] = vol;
     }
 
-    // Density continuity: c of an owned particle, a sum, becomes rho/m.  Since the last forces, rho has changed as the
-    // sum has; at the first ones it is what it was, or rho0.  Particles of walls and open zones have a sum alone, and so have
-    // those of bodies until BoundaryStage::set_frozen() begins their density.  Their sum is that without their own body, and
-    // negative; keeps: their rho is what it was.
+    // Density continuity: replace c of an owned particle, a sum, by rho/m.  rho changes as the sum has changed since the
+    // last forces; at the first ones rho stays, or becomes rho0 if it is 0.  Walls and open zones have the sum alone, and so
+    // have bodies until BoundaryStage::set_frozen() sets their density.  rho_sum of a body is negative, minus the sum
+    // without its own body; keeps: rho of bodies stays.
 
     SPH_FUNCTION void add_offset(int i, int not_fluid, int bodies = 0, bool keeps = false) const
     {
@@ -230,8 +231,7 @@ namespace SPHDissipation {
       density[i].c = now / mass;
     }
 
-    // density and pressure P, see pressure_term(), where they do not follow from pass 1; volume and P/c^2
-    // of them
+    // Set a density and a pressure P, see pressure_term(), which do not follow from pass 1; and the volume and P/c^2
 
     SPH_FUNCTION void set_state(int i, double density_of, double total) const
     {
@@ -242,8 +242,8 @@ namespace SPHDissipation {
       vfrac[i] = vol;
     }
 
-    // boundary particles have no density of their own, for most of their neighbors are not there, but the
-    // reference density of their type
+    // Set the reference density of the type, and no pressure, for a boundary particle, since most of its neighbors are
+    // missing
 
     SPH_FUNCTION void set_reference_volume(int i, int not_fluid) const
     {
@@ -262,7 +262,7 @@ namespace SPHDissipation {
       return bound && beyond_bound(types[type[i]].zeta, bound[i]);
     }
 
-    // coefficient of the bulk term in effect
+    // Return the coefficient of the bulk term in effect
 
     SPH_FUNCTION double zeta(int i, const double *bound) const
     {
@@ -272,7 +272,7 @@ namespace SPHDissipation {
       return own.zeta;
     }
 
-    // mu of an owned particle at a rate of shear; negative where it is not fluid, so that pairs have that of the other one
+    // Set mu of an owned particle at a rate of shear; -1 if it is not fluid, so that pairs take mu of the other particle
 
     void set_viscosity(int i, double rate, int not_fluid) const
     {
@@ -283,7 +283,7 @@ namespace SPHDissipation {
           : -1.0;
     }
 
-    // Pressure of the states of an owned particle, of its density; at_rest: strains are zero.
+    // Set the pressure of the states of an owned particle at its density; at_rest: strains are zero.
     // not_fluid = bits of the groups of particles of walls and open zones
 
     SPH_FUNCTION void set_state_pressure(int i, int not_fluid, bool at_rest) const
@@ -292,13 +292,13 @@ namespace SPHDissipation {
       if (!is_fluid(i, not_fluid)) return;
       states.begin(i, -1.0, at_rest);
       state_pressure[i] = states.pressure(i);
-      if (!par.thermal_pressure) return;    // heat is what states do not have
+      if (!par.thermal_pressure) return;    // the energy of states is no heat
       const double held = states.energy(i);
       state_pressure[i] -= thermal_pressure(types[type[i]].eos, rho[i], held / rmass[i]);
     }
 
-    // The internal energy of an owned particle, which lacks the work of its pressure over this time, gets it.  The
-    // pressure is that of the result.
+    // Add the work of the pressure over this time to the internal energy of an owned particle, with the pressure that
+    // follows from the result.
 
     SPH_FUNCTION void complete_energy(int i, double time, int not_fluid) const
     {
@@ -311,8 +311,8 @@ namespace SPHDissipation {
       esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], by_mass));
     }
 
-    // What the loops of the flows read: the values of an owned particle; of owned and ghost particles, with
-    // their volumes, all else.  Nothing flows to particles that are not fluid, unless a boundary says so later.
+    // Set the input of the flow loops: set_flow_values() the values of an owned particle; set_flows() volume and
+    // coefficients of an owned or ghost particle, 0 for particles that are not fluid, until a boundary sets them.
 
     SPH_FUNCTION void set_flow_values(int i) const
     {
@@ -335,8 +335,9 @@ namespace SPHDissipation {
       flow[k][i].flux = 0.0;
     }
 
-    // Whether an owned or ghost particle takes part in the diffusion of volume, and what its loops read of it; integrated =
-    // bits of the groups whose volumes change.  The pressure is that of the equation of state: strains stay as they are
+    // Return whether an owned or ghost particle takes part in the diffusion of volume; set its input of the loops.
+    // integrated = bits of the groups whose volumes change.  The pressure is that of the equation of state: strains do not
+    // change
 
     SPH_FUNCTION bool diffuses(int i, int not_fluid, int integrated) const
     {
@@ -349,14 +350,14 @@ namespace SPHDissipation {
       const EosParams &eos = types[type[i]].eos;
       const int vol = place_of_volume(par.dim);
       for (int d = 0; d < par.dim; d++) row[d] = particle[i].x[d];
-      if (par.dim == 1) row[0] += particle[i].x[1];    // a line along x or y
+      if (par.dim == 1) row[0] += particle[i].x[1];    // of a line along x or y
       const bool takes_part = diffuses(i, not_fluid, integrated);
       row[vol] = takes_part ? particle[i].vol : 0.0;
       row[vol + 1] = takes_part ? pressure(par.eos, eos, rho[i], esph[i] / rmass[i]) : 0.0;
       impedance = eos.impedance();
     }
 
-    // pressure without bulk term, of density and energy
+    // Return the pressure without bulk term, from density and energy
 
     SPH_FUNCTION double total_pressure(int i) const
     {
@@ -364,8 +365,8 @@ namespace SPHDissipation {
       return par.states ? p + state_pressure[i] : p;
     }
 
-    // work per time of that pressure on the particle: what heat adds to it, and all else, which becomes elastic energy
-    // or strain
+    // Return the work per time of this pressure on the particle: of the thermal pressure, and of all else, which becomes
+    // elastic energy or strain
 
     struct Work {
       double thermal, elastic;
@@ -378,8 +379,8 @@ namespace SPHDissipation {
       return {thermal * rate, (total_pressure(i) - thermal) * rate};
     }
 
-    // pressure and bulk term, of volume and density: what pass 2 multiplies with F r_ij, and the work of
-    // the pressure; zero for particles that are not fluid.  P1 (12), (18)
+    // Set g and zeta_term from volume and density, zero for particles that are not fluid; add the work of the pressure to
+    // the heating.  P1 (12), (18)
 
     SPH_FUNCTION void set_pressure(int i, const double *bound, int not_fluid) const
     {

@@ -11,19 +11,18 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Random numbers that are a function of a counter and a key: they do not depend on the processor
-// and the order of the calls.  For one counter or, in the loops, for a vector of them: included in
-// more than one namespace, after sph_dissipation_simd.h and sph_dissipation_words.h, hence without
-// guard and without a namespace of its own, as sph_dissipation_kernel_shapes.h.
+// Random numbers that are a function of a counter and a key: they do not depend on the processor and the order of the calls.
+// For one counter or, in the loops, for a vector of counters.  Included in more than one namespace, after
+// sph_dissipation_simd.h and sph_dissipation_words.h, hence without guard and namespace.
 
-// Four random words of 32 bits: Philox4x32-7, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw,
-// Parallel random numbers: as easy as 1, 2, 3, Proc. SC11 (2011).  7 are the fewest rounds that pass all
-// tests of BigCrush.  Only the lower 32 bits of counter and keys count.
+// Four random words of 32 bits: Philox4x32-7, J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, Parallel random numbers:
+// as easy as 1, 2, 3, Proc. SC11 (2011).  7 rounds are the fewest that pass all tests of BigCrush.  Only the lower 32 bits
+// of counter and keys count.
 
 constexpr int ROUNDS = 7;
 
 struct PhiloxKeys {
-  std::uint64_t first[ROUNDS], second[ROUNDS];    // of each round
+  std::uint64_t first[ROUNDS], second[ROUNDS];    // keys of each round
 
   PhiloxKeys(std::uint64_t key0, std::uint64_t key1)
   {
@@ -34,7 +33,7 @@ struct PhiloxKeys {
   }
 };
 
-// N counters at once, each of which becomes its random words, with garbage above their 32 bits: the chains of operations
+// Replace N counters by their random words, with garbage above the 32 bits of a word; N > 1: the chains of operations
 // overlap
 
 template <int N> SPH_INLINE void philox(Words (*word)[4], const PhiloxKeys &keys)
@@ -51,10 +50,9 @@ template <int N> SPH_INLINE void philox(Words (*word)[4], const PhiloxKeys &keys
     }
 }
 
-// A word, times a sign, as a number of the uniform distribution between -sqrt(3) and sqrt(3), whose mean is 0 and
-// variance 1.  The balance of noise and friction needs no other moments, B. Duenweg, W. Paul, Int.
-// J. Mod. Phys. C 2, 817 (1991); the velocities, sums of many such numbers, have a normal
-// distribution.
+// Return a word, times a sign, as a number uniform between -sqrt(3) and sqrt(3), with mean 0 and variance 1.  The balance of
+// noise and friction needs no other moments, B. Duenweg, W. Paul, Int. J. Mod. Phys. C 2, 817 (1991); the velocities, sums
+// of many such numbers, have a normal distribution.
 
 SPH_INLINE Vec uniform(Words word, Vec sign)
 {
@@ -62,7 +60,7 @@ SPH_INLINE Vec uniform(Words word, Vec sign)
   return middle(word, 0xffffffff) * (sign * all(SQRT_3 * UNIT)) - sign * all(SQRT_3);
 }
 
-// The same for the lower 16 bits of a word, with the factor that makes the variance of these few numbers 1, too.
+// Return such a number from the lower 16 bits of a word, with the factor that makes the variance of these 65,536 numbers 1.
 
 SPH_INLINE Vec uniform_of_half(Words word, Vec sign)
 {

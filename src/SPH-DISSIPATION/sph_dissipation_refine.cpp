@@ -38,9 +38,9 @@ static constexpr int ROUNDS = 30;
 static constexpr double EQUAL = 1.0e-9;           // tolerance of squares of distances
 static constexpr double ONE_CLASS = 2.5;          // ratio of the volumes of two that may merge
 static constexpr double FARTHEST = 0.35;          // distance of two that merge, over the support
-static constexpr double RESIDUAL_RADIUS = 0.5;    // over the support: who takes angular momentum
-static constexpr double STRETCHED = 1.4;    // spacing over the mean one, that splits in two only
-static constexpr double NEXT = 1.6;         // distance of neighbors that split together, over it
+static constexpr double RESIDUAL_RADIUS = 0.5;    // reach of angular momentum, over the support
+static constexpr double STRETCHED = 1.4;    // spacing over its mean, above which splits are in two
+static constexpr double NEXT = 1.6;    // distance of neighbors that split together, in spacings
 
 /* ---------------------------------------------------------------------- */
 
@@ -170,7 +170,7 @@ void RefinePairs::settle()
 }
 
 /* ----------------------------------------------------------------------
-   Tell the leader of a family: the first daughter has the ID of the parent, below the new ones.
+   Return whether i leads its family: the first daughter has the ID of the parent, below the new IDs.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::is_first(int i) const
@@ -268,7 +268,7 @@ void RefinePairs::find(NeighList *full, double farthest)
 }
 
 /* ----------------------------------------------------------------------
-   Set r to the way from the point of one item to that of another one.
+   Set r to the vector from the point of one item to that of another one.
 ------------------------------------------------------------------------- */
 
 void RefineResidual::offset(int from, int to, double *r) const
@@ -569,7 +569,7 @@ void RefineEvent::carry_out(NeighList *full, const Changed &changed)
   residual.clear();
   if (!fields->has_spins) give_residual(full);
 
-  // particles are changed first, then created, then removed
+  // change particles first, then create, then remove
 
   std::vector<NewIDs> daughters;
   for (const Split &one : splits) daughters.emplace_back(atom->tag[one.i], one.stencil.n - 1);

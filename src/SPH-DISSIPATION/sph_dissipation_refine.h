@@ -31,29 +31,29 @@ namespace SPHDissipation {
   class Fluid;
   class RefineBalance;
 
-  // What a particle does in an event
+  // Action of a particle in an event
 
   enum RefineState { NOT_FLUID, KEEPS, SPLITS, MERGES };
 
-  // A particle and what its neighbors need of it in an event.  All doubles, to be sent as rows.
+  // A particle, with all that its neighbors need in an event.  All doubles, to be sent as rows.
 
   struct RefineItem {
     double state;     // RefineState, see is()
     double mask;      // bits of its groups
     double volume;    // now
     double most;      // volume that a merge may give it
-    double family;    // lowest new ID of the daughters of the split that it comes from; 0: none
+    double family;    // lowest new ID of the daughters of its split; 0: none
     Lump lump;
 
-    // partner of a merge: ID of the particle that it would merge with, or the family that does as a
-    // whole; nonzero once that is settled
+    // partner of a merge: ID of the chosen particle, or family that merges as a whole; settled: nonzero when the choice is
+    // final
 
     double choice, settled;
     double
         postponed;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
 
-    // The particle as its neighbors will meet it: a pair that merges is a point in its centre of
-    // mass, whose mass the lower ID has, the other none
+    // The particle in the sums of its neighbors: a pair that merges is a point in its center of mass; the lower ID has the
+    // mass, the other particle none
 
     double mass, center[3], u[3];    // center: from the particle
 
@@ -69,12 +69,12 @@ namespace SPHDissipation {
    public:
     RefineItems(class LAMMPS *lmp, Fix *fix) : Pointers(lmp), fix(fix) {}
 
-    void resize();    // for the particles that there are; zero
+    void resize();    // for the present particles; sets zeros
     RefineItem &operator[](int i) { return items[i]; }
     const RefineItem &operator[](int i) const { return items[i]; }
 
-    // Send so many numbers of the items, from this one on, to the ghosts; 0: all that follow.  The
-    // positions of ghosts are not sent but those that they have: of periodic images.
+    // Send so many numbers of the items, from member first on, to the ghosts; 0: all that follow.  Ghosts keep their own
+    // positions, those of periodic images.
 
     static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
     void forward(double RefineItem::*first, int number = 1);
@@ -87,13 +87,12 @@ namespace SPHDissipation {
    private:
     Fix *fix;
     std::vector<RefineItem> items;
-    int first = 0, count = 0;    // which numbers of an item are sent
+    int first = 0, count = 0;    // numbers of an item in the message
   };
 
-  // Finds the partners of merges.  Each particle that is to merge chooses the nearest one that may be
-  // its partner; two that have chosen each other are settled, the others choose again.  Distances that
-  // are equal up to round-off are decided by the IDs, so that the pairs do not depend on the number of
-  // processors.
+  // Finds the partners of merges.  Each particle that should merge chooses the nearest possible partner; two that have
+  // chosen each other are settled, the others choose again.  IDs decide between distances that are equal up to round-off, so
+  // that the pairs do not depend on the number of processors.
   //
   // A family, all daughters of one split, merges first and as a whole.  It serves spinning particles in
   // three dimensions: pairs, one after the other, do not restore the moment of inertia of the parent.
@@ -106,26 +105,26 @@ namespace SPHDissipation {
     void find_families(NeighList *full, double farthest, int size);
     void find(NeighList *full, double farthest);
     int mate(int i) const { return mates[i]; }    // owned or ghost particle; -1: none
-    bool leads(int i) const;                      // owned, of a pair: it is the one that stays
-    std::vector<int> members(int i) const;        // particles of the merge that i leads
+    bool leads(int i) const;                  // owned particle of a pair: i is the one that stays
+    std::vector<int> members(int i) const;    // particles of the merge that i leads
 
    private:
     RefineItems &items;
     std::vector<int>
-        mates;    // in a family: of the leader another member, of the others the leader
+        mates;    // partners; in a family: a member for the leader, the leader for the others
     std::map<int, std::vector<int>> families;    // members, by their leader
 
     void settle();
     bool is_first(int i) const;
     bool fits(int i, int j) const;
     double distance_sq(int i, int j) const;
-    bool nearer(int i, int j, int other) const;    // to i, j than the other one
+    bool nearer(int i, int j, int other) const;    // j is nearer to i than other
     std::vector<int> family(int i, const int *neighbors, int n, double farthest_sq) const;
     int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
   };
 
-  // Gives the residual angular momentum of a merge, which a particle without spin cannot hold, to the
-  // neighbors as a rotation.  Each pair of the plan counts as one point, also if it then does not merge.
+  // Gives the residual angular momentum of a merge, which a particle without spin cannot hold, to the neighbors as a
+  // rotation.  Each planned pair counts as one point, even if the pair does not merge in the end.
 
   class RefineResidual : protected Pointers {
    public:
@@ -136,11 +135,10 @@ namespace SPHDissipation {
 
     void init(double radius_in) { radius = radius_in; }
 
-    // Find the rotation of the neighbors of owned particle i.  False if there is none.
+    // Find the rotation of the neighbors of owned particle i.  Return false if there is none.
     bool give(NeighList *full, int i, const double *angmom);
 
-    // Sum up the velocity that each owned particle gets, and the work of it; that of a pair is with its
-    // lower ID.
+    // Sum up the velocity that each owned particle gets, and its work; the lower ID has those of a pair.
     void take(NeighList *full);
     const double *velocity(int i) const { return &du[3 * i]; }
     double work(int i) const { return works[i]; }
@@ -168,12 +166,12 @@ namespace SPHDissipation {
 
     void init(const Fluid &, double smallest_share);
 
-    // Set what each owned particle is to do, its volume now and that of its target.
+    // Set the action of each owned particle, its present volume, the most that a merge may give it, and the target volume.
     void begin();
     void set(int i, RefineState, double volume, double most, double target, double family);
 
-    // Decide who merges with whom and who splits how, in at most so many events.  Changes the items
-    // only.  Returns the number of events on all processors.
+    // Decide which particles merge and how particles split, in at most so many events.  Changes the items only.  Return the
+    // number of events on all processors.
     bigint plan(NeighList *full, bigint most);
 
     // Split and merge.  Calls changed(i, family) for each owned particle that has come from an event.
@@ -181,7 +179,7 @@ namespace SPHDissipation {
     void carry_out(NeighList *full, const Changed &changed);
 
     RefineItems items;
-    tagint highest = 0;    // ID that was ever given
+    tagint highest = 0;    // highest ID that was ever given
 
    private:
     RefineBalance &balance;

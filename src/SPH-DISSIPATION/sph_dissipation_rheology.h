@@ -14,9 +14,9 @@
 #ifndef LMP_SPH_DISSIPATION_RHEOLOGY_H
 #define LMP_SPH_DISSIPATION_RHEOLOGY_H
 
-// Shear viscosities that are not constant: of the rate of shear gamma = sqrt(2 E:E), E = deviator of the rate of strain,
-// and of the temperature T.
-// Three laws begin with the mu of pair_coeff, of which a fluid has one at most:
+// Shear viscosities that depend on the rate of shear gamma = sqrt(2 E:E), E = deviator of the rate of strain, and on the
+// temperature T.
+// Three laws begin with mu of pair_coeff; a fluid has at most one of them:
 //   power:    mu gamma^(n-1), between two bounds
 //   carreau:  mu_inf + (mu - mu_inf) [1 + (lambda gamma)^a]^((n-1)/a)
 //             P. J. Carreau, Trans. Soc. Rheol. 16, 99 (1972); K. Yasuda, R. C. Armstrong, R. E. Cohen, Rheol. Acta 20,
@@ -25,7 +25,7 @@
 // Two terms are added to these, or to a constant mu:
 //   yield:        tau_y [1 - exp(-m gamma)]/gamma                 T. C. Papanastasiou, J. Rheol. 31, 385 (1987)
 //   smagorinsky:  rho l^2 gamma up to a bound                     J. Smagorinsky, Mon. Weather Rev. 91, 99 (1963)
-// Bingham's fluid is yield, the one of Herschel and Bulkley is yield with power.  The sum has a factor:
+// A Bingham fluid has yield, a Herschel-Bulkley fluid has yield with power.  The sum has a factor:
 //   arrhenius:    exp[E (1/T - 1/T0)] up to a bound; E = energy of activation over the gas constant
 //                 S. Arrhenius, Z. Phys. Chem. 4, 226 (1889)
 // No LAMMPS include.
@@ -39,7 +39,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   struct Rheology {
-    // coefficients of a type; the first one of each law is 0 where there is none
+    // Coefficients of a type; the first one of a law is 0 if the type does not have the law
     enum {
       POWER_N,
       POWER_LEAST,
@@ -72,7 +72,7 @@ namespace SPHDissipation {
       return (value < least) ? least : (value > most) ? most : value;
     }
 
-    // factor of a temperature; the bound where there is none
+    // Return the factor of arrhenius at a temperature; its bound if T <= 0
     SPH_FUNCTION static double thermal_factor(const double *a, double T)
     {
       if (!(T > 0.0)) return a[ARRHENIUS_MOST];
@@ -80,7 +80,7 @@ namespace SPHDissipation {
       return (factor < a[ARRHENIUS_MOST]) ? factor : a[ARRHENIUS_MOST];
     }
 
-    // at this rate, mass density, and temperature
+    // Return the viscosity at this rate of shear, mass density, and temperature
     SPH_FUNCTION static double viscosity(const double *a, double mu, double rho, double rate,
                                          double T)
     {
@@ -109,7 +109,7 @@ namespace SPHDissipation {
       return sum;
     }
 
-    // the smallest and the largest one
+    // Return the smallest and the largest viscosity
     struct Range {
       double least, most;
     };
@@ -127,13 +127,13 @@ namespace SPHDissipation {
       if (a[YIELD_STRESS] != 0.0) of.most += a[YIELD_STRESS] * a[YIELD_M];
       if (a[SMAGORINSKY_LENGTH] != 0.0) of.most += a[SMAGORINSKY_MOST];
       if (a[ARRHENIUS_E] != 0.0) {
-        of.least *= exp(-a[ARRHENIUS_E] / a[ARRHENIUS_T0]);    // of a hot fluid
+        of.least *= exp(-a[ARRHENIUS_E] / a[ARRHENIUS_T0]);    // T = infinity
         of.most *= a[ARRHENIUS_MOST];
       }
       return of;
     }
 
-    // the inequality that they violate, or nullptr
+    // Return the inequality that the coefficients violate, or nullptr
     static const char *inadmissible(const double *a)
     {
       for (int k = 0; k < NUMBER; k++)
@@ -166,10 +166,10 @@ namespace SPHDissipation {
     }
   };
 
-  // Square of the rate of shear of a particle, of sum = sum_j V_j F (e.u)^2, with mg/fr2 (r.u)^2, the half of shear_factor(),
-  // and rate = cdot/c in dimension n: 2 E:E to second order.  V (mu gamma^2 + kappa (cdot/c)^2) is the heat of the shear and
-  // the bulk term, so that the derivative of sum_i V_i phi(gamma_i), phi' = mu gamma, is the force with the mean of mu_i and
-  // mu_j (theory page).
+  // Return the square of the rate of shear of a particle, 2 E:E to second order; the result may be negative.
+  // sum = sum_j V_j F (e.u)^2, with mg/fr2 (r.u)^2; factor = shear_factor()/2; rate = cdot/c; n = dimension.  V (mu gamma^2
+  // + kappa (cdot/c)^2) is the heat of the shear and the bulk term, so that the derivative of sum_i V_i phi(gamma_i),
+  // phi' = mu gamma, is the force with the mean of mu_i and mu_j (theory page).
   SPH_FUNCTION double shear_rate_squared(int n, double factor, double sum, double rate)
   {
     return factor * sum - (1.0 + 2.0 / n) * rate * rate;

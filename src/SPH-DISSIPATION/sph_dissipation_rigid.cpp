@@ -23,7 +23,7 @@ using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 /* ----------------------------------------------------------------------
-   function(motions, first row)
+   Call function(motions, first row) for the motions of each boundary with bodies.
 ------------------------------------------------------------------------- */
 
 template <class Function> void RigidStage::for_motions(const Function &function) const

@@ -25,8 +25,8 @@ namespace SPHDissipation {
 
   class BoundaryStage;
 
-  // The bodies of all boundaries as unknowns of ViscousStage.  Their rows are those of the first processor, the others have
-  // none; all processors call all functions
+  // The bodies of all boundaries as unknowns of ViscousStage.  The first processor has the rows of all bodies, the others
+  // have none; all processors call all functions
 
   class RigidStage : public Stage {
    public:
@@ -37,24 +37,25 @@ namespace SPHDissipation {
     {
     }
 
-    void find(bool starts);    // of this moment, see RigidMotions::append()
-    int size() const;          // rows of this processor
+    void find(bool starts);    // sets the rows, see RigidMotions::append()
+    int size() const;          // number of rows of this processor
     const RigidRows &of() const { return rows; }
 
-    // function(i, velocity) for each owned particle of a body, from the rows of the first processor (nullptr on others)
+    // Call function(i, velocity) for each owned particle of a body; rows = of the first processor (nullptr on others)
     void velocities(const double *, const std::function<void(int, const double *)> &);
 
-    // forces and torques on the bodies, on all processors, from force(i) on their particles; in a vector of this object
+    // Return forces and torques on the bodies, on all processors, from force(i) on their particles; valid until the next
+    // call
     const double *forces(const std::function<const double *(int)> &force);
 
-    void act(const double *);    // the acting velocities are these, of the first processor
+    void act(const double *);    // sets the acting velocities to these, of the first processor
 
     double memory_usage() const override;
 
    private:
     const BoundaryStage &boundary;
     RigidRows rows;
-    std::vector<double> values;    // of all bodies
+    std::vector<double> values;    // rows of all bodies, on all processors
 
     int count() const { return static_cast<int>(rows.mass.size()); }
     void send(const double *);

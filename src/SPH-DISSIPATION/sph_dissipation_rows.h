@@ -14,15 +14,15 @@
 #ifndef LMP_SPH_DISSIPATION_ROWS_H
 #define LMP_SPH_DISSIPATION_ROWS_H
 
-// What the pair loops read of each particle, and what they sum up for it.  No LAMMPS include.
+// Input and sums of the pair loops, by particle.  No LAMMPS include.
 
 #include "sph_dissipation_function.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Index of a particle in the lists of the loops, times 8: the distance in bytes of the number with this index in an array
-  // of doubles.  The address of a row is found from it without a shift
+  // Index of a particle in the lists of the loops, times 8: the distance in bytes in an array of doubles, from which the
+  // loops find the address of a row without a shift
 
   typedef unsigned int Offset;
 
@@ -35,10 +35,9 @@ namespace SPHDissipation {
     return offset / sizeof(double);
   }
 
-  // The loops read and write these structures as rows of doubles; 16 bytes are what a GPU loads at
-  // once.
+  // The loops read and write these structures as rows of doubles; a GPU loads 16 bytes at once.
 
-  // what the pair loops read of a particle: one cache line
+  // Input of the pair loops: one cache line
 
   struct alignas(16) Particle {
     double x[3];    // position
@@ -47,27 +46,27 @@ namespace SPHDissipation {
     double g;       // (p + zeta cdot/c) / c^2 (bulk density), p/c^2 (otherwise)
   };
 
-  // number density and its rate: what pass 1 accumulates
+  // Sums of pass 1: number density and its rate
 
   struct alignas(16) DensitySum {
     double c, cdot;
   };
 
-  // force, and heat of the first channel: what pass 2 accumulates
+  // Sums of pass 2: force, and heat of the first channel
 
   struct alignas(16) ForceSum {
     double f[3];
     double heat;
   };
 
-  // spin, extrapolated to the end of the step
+  // Spin, extrapolated to the end of the step
 
   struct alignas(16) Spin {
     double w[3];
     double unused;    // rows are read by fours
   };
 
-  // What velocity and spin of a boundary particle in the pair forces exceed its own by; of other particles zero
+  // Velocity and spin of a boundary particle in the pair forces less its own ones; zero for other particles
 
   struct alignas(16) Excess {
     double u[3];

@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SETTINGS_H
 #define LMP_SPH_DISSIPATION_SETTINGS_H
 
-// Choices of pair_style, words of pair_coeff, and what follows from them without the formulas of the channels: nearly all
-// files read no more of the fluid.  No LAMMPS include.
+// Choices of pair_style, words of pair_coeff, and numbers that follow without the formulas of the channels: nearly all files
+// need no more of the fluid.  No LAMMPS include.
 
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_flows.h"
@@ -27,7 +27,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // forms of the shear force and of the bulk force, see the headers of these channels
+  // Forms of the shear force, see the header of this channel
 
   enum class Shear { NONE, MG, MG_FR, MORRIS, ESPANOL, MICROPOLAR, MG_FR2, MICROPOLAR_FR2 };
 
@@ -56,7 +56,7 @@ namespace SPHDissipation {
     }
   }
 
-  // those of a style
+  // Return the forms of the shear force of a style with or without spins
   inline std::vector<Shear> shear_forms(bool spins)
   {
     if (spins) return {Shear::MICROPOLAR, Shear::MICROPOLAR_FR2};
@@ -79,15 +79,15 @@ namespace SPHDissipation {
     return (volume == Volume::MASS) ? "mass" : "number";
   }
 
-  // negative coefficients of the bulk term beyond the bound of a particle: ignore, count, limit
+  // Treatment of negative coefficients of the bulk term beyond the bound of a particle: ignore, count, limit
 
   enum class Limit { NO, COUNT, YES };
 
-  // defaults of density continuity
+  // default of keyword delta, with density continuity
 
   constexpr double DEFAULT_DELTA = 0.1;
 
-  // choices of the pair_style command
+  // Choices of the pair_style command
 
   struct Settings {
     Kernel kernel = Kernel::WENDLAND_C2;
@@ -98,16 +98,16 @@ namespace SPHDissipation {
     Limit limit = Limit::NO;
     Volume volume = Volume::NUMBER;
     bool thermal = false;             // thermal noise
-    double temperature = 0.0;         // of it
-    bool own_temperatures = false;    // each particle has that of its internal energy instead
+    double temperature = 0.0;         // of the noise
+    bool own_temperatures = false;    // noise at the temperatures of the internal energies instead
     double heat_capacity = 0.0;       // per mass, of types that have none of their own
     int seed = 0;
     bool continuity = false;    // the density is a sum and an offset that particles keep
-    double delta = 0.0;         // of the diffusion of volume
+    double delta = 0.0;         // strength of the diffusion of volume
     bool tension = true;        // the pressure may be negative
   };
 
-  // viscosities of the pairs of types, in the order of pair_coeff
+  // Viscosities of the pairs of types, in the order of pair_coeff
   enum Viscosity { MU, MU_R, GAMMA1, GAMMA2, NVISCOSITY };
   constexpr const char *VISCOSITY_NAMES[] = {"mu", "mu_r", "gamma1", "gamma2"};
   inline int number_of_viscosities(bool spins)
@@ -115,7 +115,7 @@ namespace SPHDissipation {
     return spins ? NVISCOSITY : MU_R;
   }
 
-  // What a keyword of pair_coeff requires of pair_style, see FluidModel::keyword_that_needs()
+  // Requirements of keywords of pair_coeff, see FluidModel::keyword_that_needs()
   enum Requirement {
     NOTHING = 0,
     HEAT_CAPACITY = 1,    // temperatures: a heat capacity, and no heat bath of one temperature
@@ -128,21 +128,20 @@ namespace SPHDissipation {
     THERMAL_FRICTION = 128    // the friction depends on temperatures
   };
 
-  // A keyword of pair_coeff and its numbers, coefficients of a type, one after another: once, or in groups of which there
-  // may be fewer.
+  // Keyword of pair_coeff with coefficients of a type: count numbers, or up to count in groups of equal size.
   struct TypeKeyword {
     const char *name;
-    int count;    // of coefficients
-    int group;    // as many belong together; 0: all
-    int needs;    // of enum Requirement
-    // it acts with the number 0, too: the first of its coefficients is 1 where it is given, and no number of the command
+    int count;    // coefficients, at most
+    int group;    // coefficients of a group; 0: no groups
+    int needs;    // bits of enum Requirement
+    // The number 0 acts as well: the first coefficient, no number of the command, is 1 if the keyword is given
     bool marked = false;
-    int first = 0;    // number among the coefficients of all channels, set by type_keywords()
+    int first = 0;    // place among the coefficients of all channels, set by type_keywords()
 
-    int numbers() const { return marked ? count - 1 : count; }    // of the command
+    int numbers() const { return marked ? count - 1 : count; }    // in the command
   };
 
-  // the inequality that the viscosities of a type violate, or nullptr if the fluid dissipates:
+  // Return the inequality that the viscosities of a type violate, or nullptr if the fluid dissipates:
   // 2 mu |dev E|^2 + kappa (tr E)^2 >= 0
   inline const char *inadmissible(double mu, double kappa)
   {
@@ -151,16 +150,16 @@ namespace SPHDissipation {
     return nullptr;
   }
 
-  // the terms of pairs that a run has: those of a form of the shear force, and the optional ones or not
+  // Pair terms of a run: those of a form of the shear force, with or without the optional ones
   struct Terms {
     Shear shear;
     bool optional;
     bool by_rate;      // mu is not constant
-    bool one_fluid;    // the same coefficients of all pairs; read with by_rate
+    bool one_fluid;    // all pairs have the same coefficients; read with by_rate
   };
 
-  // Columns of a row of sums over pairs: torque, if there are spins, then the heat of each of the channels with these bits
-  // but the first
+  // Columns of a row of sums over pairs: torque (3 numbers) with spins, then the heat of each channel with a bit but the
+  // first
   struct ChannelColumns {
     bool spins;
     int bits;
@@ -179,7 +178,7 @@ namespace SPHDissipation {
     }
   };
 
-  // what belongs to all types: a device copies it as a whole
+  // Constants of all types, which a device copies as a whole
 
   struct Constants : Settings {
     double support = 0.0;             // R
@@ -188,19 +187,19 @@ namespace SPHDissipation {
     double slope_norm = 0.0;          // F = slope_norm * slope(r/R)
     int ntypes_1 = 1;                 // number of types + 1
     bool uniform = true;              // the coefficients of type 1 hold for all pairs
-    bool inviscid = true;             // they are zero
+    bool inviscid = true;             // the coefficients of all pairs are zero
     bool optional = false;            // pairs have optional terms
     bool by_rate = false;             // mu of any type is not constant
     double rate_factor = 0.0;         // of the sum in shear_rate_squared()
-    bool drag = false;                // of single particles, of any type
-    bool thermal_pressure = false;    // of any type: it depends on the internal energy
+    bool drag = false;                // any type has a drag of single particles
+    bool thermal_pressure = false;    // the pressure of any type depends on the internal energy
     int flows = 0;                    // bits of the flows of any type
-    int loops_of_flows = 0;           // of those that pass 2 does not have
-    int flows_alike = 0;              // of those with the same coefficient of all types
+    int loops_of_flows = 0;           // bits of the flows that have loops apart from pass 2
+    int flows_alike = 0;              // bits of the flows with one coefficient of all types
     bool impedes_alike = true;        // all types have the same rho0 c0
-    bool shared = false;              // there are types of other styles
-    bool states = false;              // any type has some
-    double step = 0.0;                // time step that their numbers are of
+    bool shared = false;              // some types belong to other styles
+    bool states = false;              // any type has states
+    double step = 0.0;                // time step of the numbers of the states
 
     bool spins() const { return has_spins(shear); }
     bool conducts() const { return flows >> HEAT_FLOW & 1; }

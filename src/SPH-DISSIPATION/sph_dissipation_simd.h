@@ -20,7 +20,7 @@
 //   if_positive(a, b)   b where a > 0, else 0
 //   smaller(a, b), larger(a, b)
 //   bits_below(a, b)    one bit per lane, set where a < b; for pack()
-//   count_bits(bits)    how many are set
+//   count_bits(bits)    number of bits that are set
 //   pack(to, a, bits)   write the lanes whose bits are set one after another; what follows them in
 //                       the next LANES entries is undefined
 //   copy_neighbors()    the offsets of n indices, without the bits that LAMMPS puts into them, and in the rest of the last
@@ -28,13 +28,13 @@
 //   gather(from, i)     from[i[0]] to from[i[LANES-1]]
 //   indices_of(from, i) the whole numbers from[i[0]] to from[i[LANES-1]], for pick()
 //   pick(from, indices) numbers of from, at the indices modulo LANES
-//   sum(a)              of all lanes
-//   store_floats(to, a) in single precision
-//   prefetch(p)         the cache line of p will be read soon
+//   sum(a)              sum of all lanes
+//   store_floats(to, a) store in single precision
+//   prefetch(p)         fetch the cache line of p
 //
 // Rows are structures of N doubles, one per particle; columns are the same numbers, each member in one
-// Vec.  load_4_columns<N>(row, i, column) reads the first four members of the rows i[0] to i[LANES-1], load_2_columns<N>() two,
-// add_4_columns<N>(), add_2_columns<N>() and add_column<N>() add to the first members of the rows,
+// Vec.  load_4_columns<N>(row, i, column) reads the first four members of the rows i[0] to i[LANES-1], load_2_columns<N>()
+// two, add_4_columns<N>(), add_2_columns<N>() and add_column<N>() add to the first members of the rows,
 // one row after another: an index may occur twice.
 
 // Floats holds FLOATS numbers of single precision, for distances: all_floats(), load_floats(), bits_below(), and
@@ -45,7 +45,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   namespace LOOPS {
 
-    // row of N doubles
+    // Return the address of a row of N doubles
 
     template <int N, class Number> SPH_INLINE Number *at(Number *row, Offset offset)
     {
@@ -318,7 +318,7 @@ namespace SPHDissipation {
       return _mm256_movemask_pd(_mm256_cmp_pd(a, bound, _CMP_LT_OQ));
     }
 
-    // PACK[bits]: the lanes whose bits are set first, each lane as a pair of 32-bit halves
+    // PACK[bits]: order of the lanes, those with their bit set first, each lane as a pair of 32-bit halves
 
     alignas(32) constexpr int PACK[16][8] = {
         {0, 1, 2, 3, 4, 5, 6, 7}, {0, 1, 2, 3, 4, 5, 6, 7}, {2, 3, 0, 1, 4, 5, 6, 7},
@@ -334,7 +334,7 @@ namespace SPHDissipation {
       const __m256 packed = _mm256_permutevar8x32_ps(_mm256_castpd_ps(a), order);
       _mm256_storeu_pd(to, _mm256_castps_pd(packed));
     }
-    // PACK_BYTES[bits]: the 32-bit lanes whose bits are set first, byte by byte
+    // PACK_BYTES[bits]: order of the 32-bit lanes, those with their bit set first, byte by byte
 
     struct PackBytes {
       alignas(16) unsigned char order[16][16];
@@ -406,7 +406,7 @@ namespace SPHDissipation {
                             _mm256_loadu_si256(reinterpret_cast<const __m256i *>(from + k)));
     }
 
-    // PACK_8[bits]: the 32-bit lanes of 256 bits whose bits are set first
+    // PACK_8[bits]: order of the 32-bit lanes of 256 bits, those with their bit set first
 
     struct Pack8 {
       alignas(8) unsigned char lane[256][8];
@@ -592,7 +592,7 @@ namespace SPHDissipation {
 
 #endif
 
-    // the same for all instruction sets
+    // One version for all instruction sets
 
     template <int N> SPH_INLINE void add_column(double *row, const Offset *i, Vec column)
     {

@@ -15,7 +15,7 @@
 // residual r = b - (M + h Gamma) x and the search directions M^-1 r have the momentum of b, and the
 // error of x is at most the residual in the norm of M.
 //   conjugate gradients, for a symmetric Gamma
-//   BiCGSTAB, H. A. van der Vorst, SIAM J. Sci. Stat. Comput. 13, 631 (1992), for others
+//   BiCGSTAB, H. A. van der Vorst, SIAM J. Sci. Stat. Comput. 13, 631 (1992), for any other Gamma
 // Unknowns without mass stay zero.
 
 #ifndef LMP_SPH_DISSIPATION_SOLVERS_H
@@ -31,7 +31,7 @@ namespace SPHDissipation {
   using Unknowns = std::vector<double>;
 
   struct Solution {
-    int applications;    // of the operator
+    int applications;    // calls of apply()
     double residual;     // relative to the scale
     bool converged;
     bool indefinite;    // the operator is not positive: no solution by conjugate gradients
@@ -43,9 +43,9 @@ namespace SPHDissipation {
   //   residual                  Unknowns; b at the start, b - (M + h Gamma) x at the end
   //   void apply(in, out)       out = (M + h Gamma) in
   //   void sum(values, n)       over all processors, in place
-  //   double scale_sq()         part of this processor of the square, in the norm of M, that tolerance
-  //                             times is the largest residual; may depend on x
-  //   Threads &team()           which share the work
+  //   double scale_sq()         this processor's part of the square of the scale, in the norm of M; the largest
+  //                             residual is tolerance times the scale, which may depend on x
+  //   Threads &team()           threads that share the work
 
   template <class System> class Krylov {
    public:
@@ -189,7 +189,7 @@ namespace SPHDissipation {
 
     static double rate_limit(double nstages) { return 0.5 * (nstages * nstages + nstages - 2.0); }
 
-    // the fewest stages, an odd number, for rate times time step; may be more than MOST
+    // Return the fewest stages, an odd number, for rate times time step; may be more than MOST
 
     static double stages_for(double rate)
     {

@@ -16,14 +16,14 @@
 
 // Particles that split and merge, for package SPH-DISSIPATION.  No LAMMPS include.
 //
-// Conserved in each event: mass (and with it the reference volume m/rho0), centre of mass, momentum,
-// angular momentum, orbital and spin.  A split keeps the kinetic energy, a merge turns that of the
-// relative motion into heat >= 0.  Angular momentum that a particle without spin cannot hold is
-// returned by merge(); a Shell of neighbors takes it as a rigid rotation.
+// Each event conserves mass (and with it the reference volume m/rho0), center of mass, momentum, and angular momentum,
+// orbital plus spin.  A split keeps the kinetic energy; a merge turns the energy of the relative motion into heat >= 0.
+// merge() returns the residual angular momentum that a particle without spin cannot hold; a Shell of neighbors takes it as a
+// rigid rotation.
 //
-// The daughters of a spinning particle move as its rigid rotation does, u + Omega x d, and spin with
-// Omega: by the theorem of parallel axes that keeps angular momentum and energy if
-// sum m d_perp^2 + sum m_k I_k = m I, which is the case by itself for the inertia V^(2/n)/6 of cubes.
+// The daughters of a spinning particle move with its rigid rotation, u + Omega x d, and spin with Omega: by the parallel
+// axis theorem, this keeps angular momentum and energy if sum m d_perp^2 + sum m_k I_k = m I, which holds for the inertia
+// V^(2/n)/6 of cubes.
 
 #include "sph_dissipation_states.h"
 
@@ -33,7 +33,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Symmetric tensor of three dimensions
+  // Symmetric tensor in three dimensions
 
   struct Symmetric {
     double a[3][3] = {};
@@ -45,7 +45,7 @@ namespace SPHDissipation {
     }
     double trace() const { return a[0][0] + a[1][1] + a[2][2]; }
 
-    // of the moments sum m r r: the tensor of inertia
+    // Return the tensor of inertia, from the moments sum m r r
 
     Symmetric inertia() const
     {
@@ -62,8 +62,8 @@ namespace SPHDissipation {
     double axis[3][3];    // unit vectors
   };
 
-  // Jacobi's method.  What is off the diagonal by round-off alone stays there, so that axes of an
-  // isotropic tensor are those of the coordinates whatever the round-off.
+  // Return eigenvalues and axes by Jacobi's method.  Off-diagonal elements of round-off size stay, so that the axes of an
+  // isotropic tensor are always those of the coordinates.
 
   inline Eigen3 eigen(Symmetric s)
   {
@@ -109,7 +109,7 @@ namespace SPHDissipation {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
   }
 
-  // sum += factor a x b
+  // Add factor a x b to sum
 
   inline void add_cross(double factor, const double *a, const double *b, double *sum)
   {
@@ -118,32 +118,32 @@ namespace SPHDissipation {
     sum[2] += factor * (a[0] * b[1] - a[1] * b[0]);
   }
 
-  // what is conserved of a particle, and what it is made of
-  // velocities are of two times: now, and extrapolated to the end of the step
+  // Conserved quantities and state of a particle; velocities now (u, spin), and extrapolated to the end of the step (u_end,
+  // spin_end)
 
   struct Lump {
     double mass = 0.0;
     double inertia = 0.0;    // per mass
-    double energy = 0.0;     // internal, and its rate
+    double energy = 0.0;     // internal energy, and its rate
     double energy_rate = 0.0;
-    double diffusion[3] = {};          // of volume: its rate, the one before, heat
-    double state[MOST_STATES] = {};    // handed on, see handed_on()
+    double diffusion[3] = {};          // rates of the volume, now and before; rate of the energy
+    double state[MOST_STATES] = {};    // numbers from handed_on()
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
     double u_end[3] = {}, spin_end[3] = {};
   };
 
-  // places of equal daughters around their parent; their sum is zero
+  // Places of equal daughters around their parent; the sum of the places is zero
 
   struct Stencil {
     static constexpr int MOST = 8;
     int n = 0;
-    bool isotropic = false;    // sum d d is
+    bool isotropic = false;    // sum d d is isotropic
     double d[MOST][3] = {};
   };
 
-  // distance of the daughters from their parent along each axis, over the spacing: that of the centres
-  // of the parts of a cube among others, less for one that splits alone
+  // Distance of the daughters from their parent along each axis, over the spacing: that of the centers of the parts of a
+  // cube if neighbors split as well, less for a particle that splits alone
 
   constexpr double SPLIT_IN_BLOCK = 0.25;
   constexpr double SPLIT_ALONE = 0.2;
@@ -169,13 +169,13 @@ namespace SPHDissipation {
     return stencil;
   }
 
-  // Inertia per mass of the daughters, or that of the parent if they are not to take part in its
-  // rotation: their places are not isotropic, so that they would precess, or too far apart for it, so that
-  // next to nothing would be left for the daughters, and the smallest torque spin them up.
+  // Return the inertia per mass of the daughters.  rotate = false, with the inertia of the parent, if the daughters must not
+  // take part in the rotation: their places are not isotropic, so that they would precess, or too far apart, so that hardly
+  // any inertia would be left and the smallest torque would spin the daughters up.
 
   inline double daughter_inertia(const Lump &parent, const Stencil &stencil, int dim, bool &rotate)
   {
-    constexpr double LEAST = 0.8;    // over that of a body of the same shape
+    constexpr double LEAST = 0.8;    // over the inertia of a body of the same shape
     double second = 0.0;
     for (int k = 0; k < stencil.n; k++) second += dot(stencil.d[k], stencil.d[k]) / stencil.n;
     const double remaining = parent.inertia - (dim == 3 ? 2.0 / 3.0 : 1.0) * second;
@@ -203,7 +203,7 @@ namespace SPHDissipation {
     }
   }
 
-  // Motion of parts relative to their centre of mass: its angular momentum and kinetic energy
+  // Motion of parts relative to their center of mass: angular momentum and kinetic energy
 
   struct InternalMotion {
     double angmom[3];
@@ -235,10 +235,9 @@ namespace SPHDissipation {
     return motion;
   }
 
-  // One particle from n; returns the heat of it in units of mass velocity^2, not yet in whole.energy.
-  // A spinning one has the largest of the principal moments of inertia of its parts: with it, the
-  // energy of its spin is at most that of the motion of the parts, L^2/(2 J) <= L J^-1 L/2.
-  // One without spin cannot hold the residual angular momentum.
+  // Merge n particles into one; return the heat in units of mass velocity^2, which is not yet in whole.energy.  A spinning
+  // particle gets the largest principal moment of inertia of its parts: then the energy of its spin is at most that of the
+  // motion of the parts, L^2/(2 J) <= L J^-1 L/2.  residual = angular momentum that a particle without spin cannot hold.
 
   inline double merge(const Lump *parts, int n, int dim, bool spinning, Lump &whole,
                       double *residual)
@@ -254,7 +253,7 @@ namespace SPHDissipation {
       for (int l = 0; l < MOST_STATES; l++)
         whole.state[l] += parts[k].mass / whole.mass * parts[k].state[l];
 
-    // relative to one of the parts, for the sake of round-off
+    // relative to one of the parts, to keep round-off small
 
     for (int d = 0; d < 3; d++) {
       double shift = 0.0;
@@ -307,15 +306,14 @@ namespace SPHDissipation {
     return std::max(now.energy - 0.5 * dot(now.angmom, now.angmom) / moment, 0.0);
   }
 
-  // Rotation of the neighbors of a merged particle, at r from it, which take its residual angular
-  // momentum
+  // Rotation of the neighbors of a merged particle, at r from the particle, which take its residual angular momentum
 
   struct Rotation {
-    double rate[3];      // angular velocity that is added to theirs
-    double center[3];    // about which
-    double mean[3];      // their mean velocity
+    double rate[3];      // added angular velocity
+    double center[3];    // center of the rotation
+    double mean[3];      // mean velocity of the neighbors
 
-    // of the neighbor at r, which counts with this weight
+    // Add the velocity of a neighbor at r with this weight to du
 
     void velocity(double weight, const double *r, double *du) const
     {
@@ -325,8 +323,8 @@ namespace SPHDissipation {
     }
   };
 
-  // weights that go to zero with the distance: that of a neighbor on the edge needs no decision, which
-  // round-off could make another one on another processor
+  // Return the weight of a neighbor, which goes to zero with the distance: then round-off, which differs between processors,
+  // decides nothing at the edge
 
   inline double shell_weight(double rsq, double radius)
   {
@@ -349,7 +347,7 @@ namespace SPHDissipation {
       mxx.add_product(weighted_mass, r);
     }
 
-    // false if there is no rotation of these neighbors with the angular momentum
+    // Find the rotation of these neighbors with the angular momentum; return false if there is none
 
     bool take(const double *angmom, int dim, Rotation &rotation) const
     {
@@ -378,8 +376,8 @@ namespace SPHDissipation {
     }
   };
 
-  // How far the neighbors of a particle stand apart along each axis.  Near ones tell most: on a
-  // lattice of spacings a the sum over e e/r^8 has eigenvalues about as a^-8.
+  // Spacings of the neighbors of a particle along each axis.  Near neighbors count most: on a lattice of spacings a, the sum
+  // of e e/r^8 has eigenvalues of about a^-8.
 
   class Arrangement {
    public:
@@ -389,8 +387,8 @@ namespace SPHDissipation {
       if (rsq > 0.0) near.add_product(1.0 / whole_power(rsq, 5), r);
     }
 
-    // axis along which the spacing is largest, the first one of equal ones; spacing along it of a
-    // particle of this volume, and the ratio to the spacing of an isotropic arrangement
+    // Return the spacing, of a particle of this volume, along the axis with the largest spacing, the first of equal ones;
+    // ratio = over the spacing of an isotropic arrangement
 
     double widest(int dim, double volume, double *axis, double &ratio) const
     {
@@ -398,7 +396,7 @@ namespace SPHDissipation {
       const double even = spacing_of(dim, volume);
       const Eigen3 principal = eigen(near);
       int least = 0;
-      double mean = 1.0;    // geometric, of the roots: the product may leave the range of numbers
+      double mean = 1.0;    // geometric mean, by roots: a product may leave the range of numbers
       for (int d = 0; d < dim; d++) {
         mean *= spacing_of(dim, std::max(principal.value[d], 0.0));
         if (principal.value[d] < (1.0 - EQUAL) * principal.value[least]) least = d;

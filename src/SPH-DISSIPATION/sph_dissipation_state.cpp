@@ -45,9 +45,9 @@ void FluidState::run(int group_in, int not_fluid_in, const std::function<double(
 }
 
 /* ----------------------------------------------------------------------
-   A particle at a free surface has R |sum_j w_j F r_ij| / c between 1.4 and 2.4, for R of 2.5 to 6
-   spacings in 1 to 3 dimensions; one inside 0 on lattices and below 1 if disordered.  No
-   particle of full support has such a one in reach.
+   Find the particles of full support: those without a particle of a free surface in reach.  At a free surface,
+   R |sum_j w_j F r_ij| / c is between 1.4 and 2.4, for R of 2.5 to 6 spacings in 1 to 3 dimensions; inside it is 0 on
+   lattices and below 1 if disordered.
 ------------------------------------------------------------------------- */
 
 void FluidState::find_full_support()
@@ -89,7 +89,9 @@ void FluidState::find_full_support()
   exchange.forward({{full.data(), 1, 1}});
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Sum up means and ranges by type and set, over all ranks.
+------------------------------------------------------------------------- */
 
 void FluidState::add_up(const std::function<double(int)> &pressure)
 {
@@ -213,7 +215,7 @@ std::string FluidState::table() const
 }
 
 /* ----------------------------------------------------------------------
-   largest extent of the box, where it is periodic, or of the fluid
+   Return the largest extent of the box, in periodic directions, or of the fluid, in others.
 ------------------------------------------------------------------------- */
 
 double FluidState::longest_wave() const
@@ -300,8 +302,7 @@ void LatticeStrain::run(const std::vector<double> &weight)
 }
 
 /* ----------------------------------------------------------------------
-   of the directions of small integer components, among them those in which square, cubic and
-   hexagonal lattices have their extremes
+   Search the directions with small integer components, among them the extremes of square, cubic and hexagonal lattices.
 ------------------------------------------------------------------------- */
 
 double LatticeStrain::largest(int type) const
@@ -349,8 +350,8 @@ double LatticeStrain::largest(int type) const
 
 bool FluidState::is_far_off(int type, double density) const
 {
-  constexpr double FAR_OFF = 0.1;    // density over rho0
-  constexpr double SPARSE = 0.01;    // the same, where no particle has a full support
+  constexpr double FAR_OFF = 0.1;    // relative difference from rho0
+  constexpr double SPARSE = 0.01;    // density over rho0, where no particle has a full support
   const double rho0 = model.coeffs[type].eos.rho0;
   const double least = has_full_support(type) ? 1.0 - FAR_OFF : SPARSE;
   return density < least * rho0 || density > (1.0 + FAR_OFF) * rho0;
@@ -387,21 +388,20 @@ void FluidState::warn_of_density(const std::string &fix_style) const
 }
 
 /* ----------------------------------------------------------------------
-   A shear wave of wave number k with the viscosity mu and the elasticity G has the rates
-   g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the
-   part G rho/(mu k)^2 of it; from 1/4 on the wave oscillates.  If G < 0, it grows in the end.  The
-   arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has no
-   vorticity.  If G < 0, short waves grow from rounding errors, at the rate |G|/mu at most.
-   What is driven from rest has most of its velocity after the time 1/(nu k^2), without elasticity.
+   Warn of a shear elasticity G of the arrangement.  A shear wave of wave number k with the viscosity mu has the rates
+   g = nu k^2/2 +- sqrt[(nu k^2/2)^2 - G k^2/rho]: for a small G, mu appears to be too small by the part G rho/(mu k)^2; from
+   1/4 on, the wave oscillates.  If G < 0, the wave grows in the end, and short waves grow from rounding errors, at the rate
+   |G|/mu at most.  The arrangement yields to waves of a vorticity beyond k sqrt(|G|/rho), whose strains exceed 1; sound has
+   no vorticity.  Without elasticity, a flow that is driven from rest has most of its velocity after the time 1/(nu k^2).
 ------------------------------------------------------------------------- */
 
 double FluidState::warn_of_elasticity(const std::string &fix_style, double moving)
 {
   constexpr double REGULAR = 0.001;         // spread of the density; disordered particles yield
-  constexpr double ELASTIC_PART = 0.25;     // of the viscosity
-  constexpr double FEW = 10.0;              // particles, whose densities may be equal by chance
+  constexpr double ELASTIC_PART = 0.25;     // missing part of the viscosity
+  constexpr double FEW = 10.0;              // of fewer particles, densities may be equal by chance
   constexpr double SHEARED = 0.1;           // vorticity over the rate of density
-  constexpr double STRAINED = 0.001;        // vorticity times the time for which a flow is driven
+  constexpr double STRAINED = 0.001;        // vorticity times the time of a driven flow
   constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
   // with density continuity, the pressure is that of the flow, and equal densities are no regular arrangement

@@ -25,22 +25,22 @@ namespace SPHDissipation {
 
   class FluidModel;
 
-  // How the number density of particles changes in a shear gamma of their arrangement: d2c/dgamma2
-  // over c, which times the pressure is the shear modulus of a lattice (theory page).
+  // Finds the change of the number density c of particles in a shear gamma of their arrangement: d2c/dgamma2 over c, which
+  // times the pressure is the shear modulus of a lattice (theory page).
 
   class LatticeStrain : public Stage {
    public:
     using Stage::Stage;
 
-    // sums over the pairs of pass 1; weight = of owned and ghost particles
+    // Sum over the pairs of pass 1; weight = of owned and ghost particles
 
     void run(const std::vector<double> &weight);
 
-    // sum of weight times d2c/dgamma2 over c, the largest in size of all directions of the shear
+    // Return the sum of weight times d2c/dgamma2 over c, for the direction of shear with the largest |sum|
 
     double largest(int type) const;
 
-    // sums of weight times the square of the vorticity, and of the rate of the density over the density
+    // Return the sum of weight times the square of the vorticity, and times the square of the relative rate of the density
 
     double vorticity_squared(int type) const { return sums[type].vorticity_sq; }
     double rate_squared(int type) const { return sums[type].rate_sq; }
@@ -53,9 +53,9 @@ namespace SPHDissipation {
     std::vector<Sum> sums;    // by type
   };
 
-  // The fluid as it enters the first step, by type: density, pressure, and the shear elasticity that
-  // the pressure gives to a regular arrangement.  The means are over the particles with a full
-  // support, that is without a free surface in reach; over all if there are no such particles.
+  // Density and pressure of the fluid at the first step, by type, and the shear elasticity that the pressure gives to a
+  // regular arrangement.  Means are over the particles with a full support, that is without a free surface in reach; over
+  // all if there are none.
 
   class FluidState : public Stage {
    public:
@@ -64,7 +64,7 @@ namespace SPHDissipation {
     {
     }
 
-    // with the densities of pass 1; of particles with the bit of group, without one of not_fluid
+    // Find the means from the densities of pass 1, of particles with a bit of group and none of not_fluid
 
     void run(int group, int not_fluid, const std::function<double(int)> &pressure);
 
@@ -80,18 +80,18 @@ namespace SPHDissipation {
     void warn_of_density(const std::string &fix_style) const;
 
     // Warn, on rank 0, of the type whose arrangement has the largest shear elasticity over its viscosity, if its motion is a
-    // shear that the arrangement survives.  moving = time for which what drives it has acted, 0: at the start.  Returns that
-    // after which to look again, the decay time of the longest waves, if there is no such motion yet, else 0.
+    // shear that the arrangement survives.  moving = time since the start or the last call; 0 at the start.  Return the time
+    // until the next call, the decay time of the longest waves, if there is no such motion yet, else 0.
 
     double warn_of_elasticity(const std::string &fix_style, double moving);
 
-    // masses of the owned and ghost particles of run(), and of those with a bit of also, times one
-    // factor for each type, so that the mean density of the type is rho0 if the volumes do not depend
-    // on masses; factor[type] is multiplied by it.  Returns the largest |factor - 1|.
+    // Multiply the masses of the owned and ghost particles of run(), and of those with a bit of also, and factor[type], by
+    // one factor for each type: then the mean density of the type is rho0, if volumes do not depend on masses.  Return the
+    // largest |factor - 1|.
 
     double scale_masses(std::vector<double> &factor, int also) const;
 
-    // what the masses were multiplied with, in the log
+    // Log the factors of the masses; warn of types without a full support
 
     void report_masses(const std::vector<double> &factor, const std::string &fix_style) const;
 
@@ -99,7 +99,7 @@ namespace SPHDissipation {
     enum Set { ALL, FULL, NSET };
     struct Mean {
       double count, excess, excess_sq, pressure;    // sums; excess = rho/rho0 - 1
-      double sum;    // of the part of rho/rho0 that is a sum over neighbors
+      double sum;    // over the part of rho/rho0 that is a sum over neighbors
     };
     struct Range {
       double smallest, minus_largest;    // of the excess

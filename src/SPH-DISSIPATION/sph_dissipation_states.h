@@ -14,9 +14,9 @@
 #ifndef LMP_SPH_DISSIPATION_STATES_H
 #define LMP_SPH_DISSIPATION_STATES_H
 
-// The states of a particle: numbers that channels keep of it from one step to the next.  A channel that has some derives
-// from BaseState as well; StateList has all of them, and all other code goes through it.  Forces only read states; the
-// integrator advances them at the beginning of a step.  No LAMMPS include.
+// The states of a particle: numbers that channels keep from one step to the next.  A channel with states also derives from
+// BaseState; StateList has all states, and all other code calls StateList.  Forces only read states; the integrator
+// advances them at the beginning of a step.  No LAMMPS include.
 
 #include "sph_dissipation_function.h"
 
@@ -29,14 +29,14 @@ namespace SPHDissipation {
 
   constexpr int MOST_STATES = 16;    // of a particle: room in arrays
 
-  // what becomes of a state where particles split, merge, or get another mass
+  // Change of a state where particles split, merge, or get another mass
   enum class StateKind {
-    STRAIN,    // a density at rest, mass/length^n: the strain ln(rho/state) stays, and is merged by mass
-    PER_MASS,    // it stays, and is merged by mass
-    EXTENSIVE    // it is shared, added up, and goes with the mass
+    STRAIN,    // a density at rest, mass/length^n: the strain ln(rho/state) stays, means are by mass
+    PER_MASS,    // the state stays, means are by mass
+    EXTENSIVE    // the state is shared, added up, and proportional to the mass
   };
 
-  // ln(a/b) and e^x where a/b and e^x are mostly near 1: then by their series to rounding errors, without a call
+  // Return ln(a/b), and e^x; near 1 by series that are exact to rounding errors, without a call
 
   SPH_FUNCTION double log_of_ratio(double a, double b)
   {
@@ -52,14 +52,14 @@ namespace SPHDissipation {
     return 1.0 + x * (1.0 + x * (1.0 / 2.0 + x * (1.0 / 6.0 + x * far)));
   }
 
-  // strain at a density, of the density at rest
+  // Return the strain ln(density/rest), with the density at rest; 0 if one of them is not positive
 
   SPH_FUNCTION double strain_at(double density, double rest)
   {
     return (rest > 0.0 && density > 0.0) ? log_of_ratio(density, rest) : 0.0;
   }
 
-  // A state of a particle as its channel sees it: own = its numbers in a time step, rows = StateRows
+  // A state of a particle, for its channel: own = its numbers for the time step, rows = StateRows
 
   template <class Rows, class Channel> struct Site {
     const Rows &rows;
@@ -70,61 +70,61 @@ namespace SPHDissipation {
     SPH_FUNCTION double strain() const { return strain_at(rho(), state()); }
     SPH_FUNCTION double mass() const { return rows.rmass[i]; }
     SPH_FUNCTION double rho() const { return rows.rho[i]; }
-    // rate of the state, of a channel with a flow
+    // rate of the state by the flow of the channel
     SPH_FUNCTION double flow() const { return rows.template rate_of<Channel>(i); }
   };
 
-  // Defaults for what a state does not have.  Its channel says FIELD, the name of the custom property, with a number
-  // behind it if MOST > 1; KEYWORD or Room; and count(type), how many of its states a type has, of which
-  // process(type, k, rho0, cv, dt) returns the Numbers of state k in a time step.
+  // Defaults of the members of a state.  Its channel must define FIELD, the name of the custom property, with a number
+  // behind it if MOST > 1; KEYWORD or Room; count(type), the number of states of a type; and process(type, k, rho0, cv, dt),
+  // which returns the Numbers of state k for a time step.
 
   struct BaseState {
     static constexpr int MOST = 1;    // of a particle
     static constexpr StateKind KIND = StateKind::PER_MASS;
-    // The keyword of the atom style that makes room, with a number N if MOST > 1.  Or the channel, earlier in the list, whose
-    // keyword does; data files then have the state in the last of the N columns of that one.
+    // Keyword of the atom style that makes room, with a number N if MOST > 1; or the channel, earlier in the list, whose
+    // keyword makes room: data files then have the state in the last of the N columns of that channel.
     static constexpr const char *KEYWORD = nullptr;
     using Room = void;
-    static constexpr bool GHOSTS = false;        // ghosts have it
+    static constexpr bool GHOSTS = false;        // ghosts have the state
     static constexpr bool READS_RATE = false;    // advance() reads the rate of the temperature
-    // what does the same as a state whose time(type, k) is far below the time step; nullptr: nothing does
+    // coefficient that replaces a state whose time(type, k) is far below the time step; nullptr: none
     static constexpr const char *INSTEAD = nullptr;
 
-    // pressure over density; energy, elastic for StateKind::STRAIN; heat per mass that it turns into, per time
+    // Return pressure over density; energy, elastic for StateKind::STRAIN; heat per mass and time that the energy becomes
     template <class Site> SPH_FUNCTION static double pressure(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double energy(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double heat(const Site &) { return 0.0; }
-    // Set the state of a particle that may be new, with state 0; not called for StateKind::STRAIN.  temperature = the one
-    // that the particle gets; negative: it has its internal energy already
+    // Set the state of a particle that may be new, with state 0; not called for StateKind::STRAIN.  temperature = that of
+    // the new particle; negative: the particle has its internal energy already
     template <class Site> SPH_FUNCTION static void begin(const Site &, double) {}
-    // one time step later; rate of the temperature at constant states; noise = of strength noise(), or 0
+    // Advance by a time step; rate of the temperature at constant states; noise = of strength noise(), or 0
     template <class Site> SPH_FUNCTION static void advance(const Site &, double, double) {}
     template <class Numbers> static double noise(const Numbers &)
     {
       return 0.0;
     }    // of sqrt(kB T/m) xi
-    // what all states of a type add to the square of the speed of sound in a time step
+    // Return what all states of a type add to the square of the speed of sound, with a time step
     static double stiffness(const double *, double, double) { return 0.0; }
   };
 
-  // of a channel, of a type in a time step
+  // Numbers of the states of a channel, for a type and a time step
   template <class Channel> struct Slots {
     int count = 0;
     typename Channel::Numbers of[Channel::MOST] = {};
   };
 
-  // the states of a channel as data, for code that is not about what they do
+  // The states of a channel as data, for code that only stores and moves them
   struct StateInfo {
     const char *name, *field, *keyword;
     StateKind kind;
     int first, most;    // places of its states
     int owner;          // first place of the channel whose keyword makes room
     bool ghosts;
-    // of a type with these coefficients by keyword: how many it has; time of one of them, nullptr where nothing does the same
+    // For a type with these coefficients by keyword: number of states; time of state k, nullptr without INSTEAD
     int (*count)(const double *coeffs);
     double (*time)(const double *coeffs, int k);
     const char *instead;
-    bool has_column() const { return owner == first; }    // of its own in data files
+    bool has_column() const { return owner == first; }    // data files have its own column
   };
 
   template <class... One> struct StateList {
@@ -138,7 +138,7 @@ namespace SPHDissipation {
       }
     };
 
-    // place of the first state of a channel
+    // Return the place of the first state of a channel
     template <class Channel> SPH_FUNCTION static constexpr int first()
     {
       int before = 0;
@@ -157,7 +157,7 @@ namespace SPHDissipation {
                One::INSTEAD}...};
     }
 
-    // call function(channel) of each channel; function(channel, site) of each state that a particle has
+    // Call function(channel) for each channel; function(channel, site) for each state of particle i
     template <class Function> static void visit(Function &&function) { (function(One()), ...); }
     template <class Rows, class Function>
     SPH_FUNCTION static void each(const Rows &rows, int i, Function &&function)
@@ -176,14 +176,14 @@ namespace SPHDissipation {
     {
       return (One::stiffness(type.template of<One>(), rho0, dt) + ...);
     }
-    // strength of the noise of the state at a place
+    // Return the strength of the noise of the state at a place
     static double noise(const Numbers &numbers, int slot)
     {
       return (noise_of<One>(numbers, slot - first<One>()) + ...);
     }
 
-    // Drop the states that the type of a particle does not have; return bits of their places.  One that is -1, from a
-    // data file, is in the column of another one: in the last one that is > 0 and that its type does not need.
+    // Drop the states that the type of a particle does not have; return bits of their places.  A state -1, from a data file,
+    // is in the column of another channel: in its last column that is > 0 and that the type does not need.
     template <class Rows> static int keep(const Rows &rows, int i)
     {
       int others = 0;
@@ -195,7 +195,7 @@ namespace SPHDissipation {
    private:
     struct Spare {
       double value;
-      int bit;    // of its place
+      int bit;    // bit of the place
     };
     template <class Channel, class Coeffs> static int count_of(const double *coeffs)
     {
@@ -246,9 +246,9 @@ namespace SPHDissipation {
     }
   };
 
-  // What a particle of this mass and density hands on of a state where it splits or merges, a number per mass; the state
-  // of one that gets this, as minus the factor by which a density at rest differs from the density that the next forces
-  // find; the state of one whose mass is multiplied with a factor, at the same volume
+  // Return the number per mass that a particle of this mass and density hands on of a state where it splits or merges;
+  // return the state of a particle that gets this number, for a density at rest minus its ratio to the density that the next
+  // forces find; return the state of a particle whose mass is multiplied with a factor, at the same volume
 
   inline double handed_on(StateKind kind, double state, double mass, double rho)
   {
@@ -259,7 +259,7 @@ namespace SPHDissipation {
   {
     if (kind == StateKind::EXTENSIVE) return value * mass;
     if (kind == StateKind::PER_MASS) return value;
-    return (state != 0.0) ? -std::exp(-value) : 0.0;    // 0: its type does not have it
+    return (state != 0.0) ? -std::exp(-value) : 0.0;    // 0: the type does not have the state
   }
   inline double rescaled(StateKind kind, double state, double factor)
   {
@@ -267,7 +267,7 @@ namespace SPHDissipation {
     return (waits || kind == StateKind::PER_MASS) ? state : state * factor;
   }
 
-  // the list of those channels that have a base class
+  // List of the channels that derive from a base class
 
   template <class Base, class List, class... Rest> struct ListOf {
     typedef List type;

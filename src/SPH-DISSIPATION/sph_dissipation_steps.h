@@ -23,16 +23,16 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // effective smoothing length for stability: the h of a Wendland C2 kernel (support 2h) with the
-  // same integral of F, which sets the damping rate of the shortest waves
+  // Return the square of the smoothing length for stability: h of a Wendland C2 kernel (support 2h) with the same integral
+  // of F, which sets the damping rate of the shortest waves
 
   inline double stability_length_squared(double slope_integral)
   {
     return 3.5 / slope_integral;
   }
 
-  // Forces use the velocity extrapolated to the end of the step, with which a mode of damping rate
-  // g is stable for g dt < 1.  The time step is SAFETY/g.
+  // Return the largest stable time step of a mode with damping rate g, SAFETY/g: forces use the velocity extrapolated to the
+  // end of the step, with which the mode is stable for g dt < 1.
 
   constexpr double UNLIMITED_STEP = 1.0e300;
   constexpr double SAFETY = 0.9;
@@ -42,8 +42,8 @@ namespace SPHDissipation {
     return (rate > 0.0) ? SAFETY / rate : UNLIMITED_STEP;
   }
 
-  // Sound: linear waves are stable up to several times this step, but the energy of a fluid far from
-  // equilibrium is not right even at it; J. J. Monaghan, Rep. Prog. Phys. 68, 1703 (2005)
+  // Return the largest step for sound.  Linear waves are stable up to several times this step, but the energy of a fluid far
+  // from equilibrium is inaccurate even with this step; J. J. Monaghan, Rep. Prog. Phys. 68, 1703 (2005)
 
   constexpr double ACOUSTIC = 0.25;
 
@@ -52,8 +52,8 @@ namespace SPHDissipation {
     return (speed > 0.0) ? ACOUSTIC * h / speed : UNLIMITED_STEP;
   }
 
-  // The same for a speed that grows as the step gets shorter: by extra(dt), which falls with dt, as with states,
-  // which are stiff for steps below their times
+  // Return this step for a speed that grows by extra(dt), which falls with dt, as with states: they are stiff for steps
+  // below their times
 
   template <class Extra> double acoustic_step(double h, double speed, Extra &&extra)
   {
@@ -66,7 +66,7 @@ namespace SPHDissipation {
     return low;
   }
 
-  // Capillary waves, at a distance h: J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
+  // Return the step for capillary waves of length h, hsq = h^2: J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
 
   inline double capillary_step(double rho, double hsq, double tension)
   {
@@ -75,7 +75,7 @@ namespace SPHDissipation {
                            : UNLIMITED_STEP;
   }
 
-  // all limits together: the rates of the viscous terms add
+  // Return the step for all limits together: the rates of the viscous terms add
 
   inline double combined_step(double acoustic, const std::vector<double> &viscous)
   {
@@ -85,9 +85,9 @@ namespace SPHDissipation {
     return (rate > 0.0) ? std::min(acoustic, 1.0 / rate) : acoustic;
   }
 
-  // Time per step over that with a skin of zero and no rebuilds.  A list lasts until a particle has moved by half of
-  // the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that goes through the whole
-  // list, whose length is proportional to (support + skin)^dim.  Both are measured: bench/README.md.
+  // Return the time per step over that with a skin of zero and no rebuilds.  A list lasts until a particle has moved by half
+  // of the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that is proportional to the length
+  // of the list, (support + skin)^dim.  Both are measured: bench/README.md.
 
   constexpr double REBUILD = 0.75, LISTED = 0.15;
 
@@ -97,7 +97,7 @@ namespace SPHDissipation {
     return 1.0 - LISTED + LISTED * pow(1.0 + skin / support, dim) + REBUILD / std::max(steps, 1.0);
   }
 
-  // The skin for which this is smallest, to first order in skin/support, and at most half of the support radius
+  // Return the skin with the least time per step, to first order in skin/support, at most half of the support radius
 
   inline double fastest_skin(double motion_per_step, double support, int dim)
   {

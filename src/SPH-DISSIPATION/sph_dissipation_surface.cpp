@@ -26,13 +26,13 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// in particle spacings: width and cutoff of the Gaussian that finds the outer layer; on lattices its
-// sums are as good as integrals
+// Width and cutoff, in particle spacings, of the Gaussian that finds the outer layer: on lattices, its sums are as accurate
+// as integrals
 
 static constexpr double WIDTH = 0.7;
 static constexpr double CUTOFF = 3.0;
 
-// filled part of space around a particle: half at the surface, 0.67 to 0.79 in the outer layer of
+// Largest filled part of space around a particle of the outer layer: 1/2 at the surface, 0.67 to 0.79 in the outer layer of
 // lattices, and at least 0.87 in the next one
 
 static constexpr double OUTER = 0.85;
@@ -42,7 +42,7 @@ static constexpr double OUTER = 0.85;
 
 static constexpr double RESIDUAL = 0.1;
 
-// 1 inside of a sphere, going to zero smoothly at its surface, on which particles of lattices lie
+// Return 1 inside of a sphere, and smoothly 0 at its surface, on which particles of lattices lie
 
 static double edge(double rsq, double radius)
 {
@@ -86,7 +86,9 @@ void SurfaceStage::begin()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find the surface near particles with one of these bits; the normals of owned ones are vectors toward the fluid before.
+------------------------------------------------------------------------- */
 
 void SurfaceStage::find(int bits)
 {
@@ -148,10 +150,9 @@ template <class Task> void SurfaceStage::for_each(const std::vector<int> &owned,
 }
 
 /* ----------------------------------------------------------------------
-   In the outer layer of a plane wall, the filled part is 1/2 + b g(0)/2 with the distance b
-   between layers and the Gaussian g across the wall: half of space is filled without the
-   layer, and half of the layer is missing.  The surface is b/2 away.
-   Particles of other layers, and those of walls that turn their back to the fluid, get no normal.
+   Set normal and depth of the outer layer; other layers, and layers on the far side from the fluid, get the normal 0.  In
+   the outer layer of a plane wall, the filled part is 1/2 + b g(0)/2 with the distance b between layers and the Gaussian g
+   across the wall: half of space is filled without the layer, and half of the layer is missing.  The surface is b/2 away.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
@@ -184,10 +185,9 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
 }
 
 /* ----------------------------------------------------------------------
-   mean over the tangential planes of the outer layer, each weighted by the inverse eighth
-   power of its distance; those far away on a curved surface or round a corner do not matter.
-   A particle without any, or half way between two opposite ones, has its image at the place of
-   the fluid's mean.
+   Set depth and normal of all layers as the mean over the tangential planes of the outer layer, each weighted by the inverse
+   eighth power of its distance: planes far away on a curved surface or round a corner do not matter.  A particle without
+   planes, or half way between opposite ones, gets the normal 0 and the depth CLOSEST_MEAN spacings.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
@@ -223,8 +223,8 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 }
 
 /* ----------------------------------------------------------------------
-   Divergence of the normals over the dimensions of the surface, by least squares from those around a particle; none in
-   the edges of a hollow, where they turn too much for the normal half way
+   Set the curvature, the divergence of the normals over the dimensions of the surface, by least squares from the normals
+   around a particle; 0 in the edges of a hollow, where normals turn too much for the normal half way.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)

@@ -24,20 +24,20 @@ namespace SPHDissipation {
 
   class Cells;
 
-  // Where the surface of the boundary is, seen from each of its particles: from the arrangement of
-  // the boundary particles alone, on those sides where there is fluid
+  // Finds the surface of the boundary near each of its particles, from the arrangement of the boundary particles alone, on
+  // the sides with fluid
 
   class SurfaceStage : public Stage {
    public:
     using Stage::Stage;
 
-    // when the neighbor list is new: normal, depth and spacing of the owned and ghost atoms with one
-    // of these bits, from their volumes; omega is for the boundary to set
-    // body: numbers of bodies, 0 for all walls, empty if there is none; the surface of a body is that of its
-    // particles alone
+    // When the neighbor list is new: find normal, depth and spacing of the owned and ghost atoms with one of these bits,
+    // from their volumes; Boundary::move_surface() sets omega.  body: number of the body of each atom, 0 for walls; empty
+    // without bodies.  The particles of a body alone define its surface.
     void run(int bits, const BoundaryPairs &, const std::vector<double> &body);
 
-    // Do the same with known vectors toward the fluid, those of the owned particles in their order.
+    // Do the same with known vectors toward the fluid, three numbers for each owned particle with one of these bits, in
+    // order.
     void run(int bits, const std::vector<double> &sides);
 
     double memory_usage() const override { return bytes(surface); }

@@ -24,9 +24,8 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Which part of the largest stable time step keeps the error of the energy below 1 and 0.1 percent
-// of the kinetic energy at the start, for a drop far from equilibrium; the error is of second
-// order.  Checked by unittest/python/test_lattices.py
+// Parts of the largest stable time step that keep the error of the energy below 1 and 0.1 percent of the kinetic energy at
+// the start, for a drop far from equilibrium; the error is of second order.  unittest/python/test_lattices.py checks them
 
 static constexpr double ONE_PERCENT_STEP = 0.15, TENTH_PERCENT_STEP = 0.05;
 
@@ -139,7 +138,7 @@ void CoeffTable::add_row(int i, int j, const TypePair &pair, const PairInertia &
 }
 
 /* ----------------------------------------------------------------------
-   the rows, with a header, without the columns of channels that none of them uses
+   Return the rows, with a header, without the columns of channels that no row uses.
 ------------------------------------------------------------------------- */
 
 std::string CoeffTable::lines() const

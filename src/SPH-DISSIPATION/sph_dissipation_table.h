@@ -26,29 +26,29 @@ namespace SPHDissipation {
   struct PairInertia;
   struct TypePair;
 
-  // Table of the coefficients and the largest stable time steps of the pairs of types, as it goes to
-  // the log: a row each, the same columns in all rows.
+  // Table in the log of the coefficients and the largest stable time steps of the pairs of types: one row for each pair, the
+  // same columns in all rows.
 
   class CoeffTable {
    public:
     // fastest = speed of any particle
     CoeffTable(double fastest) : fastest(fastest) {}
 
-    // of types i and j, with the largest stable time step for their sound, and the rate of the diffusion of volume
+    // Add the row of types i and j; acoustic_step = largest stable time step for their sound, rate of the diffusion of
+    // volume
     void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step,
                  double diffusion_rate);
-    // with lines on the accuracy of these steps, and on what dt needs
+    // Return the table, with lines on the accuracy of these steps, and on what the time step dt needs
     std::string text(double dt) const;
-    double smallest_step() const { return smallest; }    // with all terms together, of all rows
-    // of sound and other waves, of the diffusion of volume, and of flows that are not stiff
+    double smallest_step() const { return smallest; }    // of all rows, with all terms together
+    // Step of sound and other waves, of the diffusion of volume, and of flows that are not stiff
     double acoustic_step() const { return acoustic; }
     double dissipative_step() const { return dissipative; }       // without sound
     double fastest_rate() const { return rate_of(viscous); }      // of the viscous terms
     double fastest_heat_rate() const { return rate_of(heat); }    // of conduction
 
-    // A line with the fastest skin of the neighbor list at these speeds; empty if it saves less
-    // than a tenth of the time per step of the present skin. At rest, of how much longer the list is
-    // than without a skin that exceeds the support radius
+    // Return a line with the fastest skin of the neighbor list at these speeds; empty if that skin saves less than a tenth
+    // of the time per step.  At rest, the line tells how much longer the list is by a skin that exceeds the support radius
     std::string skin_text(double skin, double dt, double support, int dim) const;
 
    private:
@@ -56,7 +56,7 @@ namespace SPHDissipation {
 
     struct Column {
       std::string name;
-      int channel;    // of the list of all channels, -1: none
+      int channel;    // number in the list of all channels; -1: none
       double value;
     };
     struct Row {

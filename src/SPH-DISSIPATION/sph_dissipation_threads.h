@@ -26,7 +26,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // memory of vectors, and of what has a memory_usage(); of vectors of either, what these have
+  // Return the memory of vectors, and of objects with memory_usage(), in bytes; of vectors of such, that of their elements
 
   template <class T> auto bytes_of(const T &one) -> decltype(one.memory_usage())
   {
@@ -48,17 +48,17 @@ namespace SPHDissipation {
     return (... + bytes_of(one));
   }
 
-  // Here there is one; those of the KOKKOS package derive from it.
+  // Team of threads, here of one; the team of the KOKKOS package derives from this class.
 
   class Threads {
    public:
     virtual ~Threads() = default;
     virtual int size() const { return 1; }
 
-    // task(k) on each thread k < size()
+    // Run task(k) on each thread k < size()
     virtual void run(const std::function<void(int)> &task) { task(0); }
 
-    // task(k, from, to) on each thread k, with its part of 0 ... n - 1, which always is the same one
+    // Run task(k, from, to) on each thread k, with its part of 0 ... n - 1, the same in each call
     template <class Task> void in_parts(int n, const Task &task)
     {
       const int parts = size();
@@ -71,7 +71,7 @@ namespace SPHDissipation {
       });
     }
 
-    // task(i) for each i < n
+    // Run task(i) for each i < n
     template <class Task> void for_each(int n, const Task &task)
     {
       in_parts(n, [&](int, int from, int to) {
@@ -79,7 +79,7 @@ namespace SPHDissipation {
       });
     }
 
-    // sum of what add(i, total) adds to total, for each i < n
+    // Return the sum of what add(i, total) adds to total, for each i < n
     template <class Sum, class Add> Sum sum(int n, const Add &add)
     {
       std::vector<Sum> part(size());
@@ -92,12 +92,12 @@ namespace SPHDissipation {
     }
   };
 
-  // Sums of particles to which several threads add: the first one to the wanted ones, each other one to rows of its
-  // own, which are added up then.  Row: double, or a struct of them
+  // Sums by particle to which several threads add: the first thread to the result, each other one to its own rows, which are
+  // then added to the result.  Row: double, or a struct of doubles
 
   template <class Row> class ThreadSums {
    public:
-    // task(k, sum) on each thread k adds to rows sum[0] ... sum[n - 1]: all of them end up in total
+    // Run task(k, sum) on each thread k, which adds to rows sum[0] ... sum[n - 1]; add all rows up in total
     template <class Task> void run(Threads &threads, Row *total, std::size_t n, const Task &task)
     {
       begin(threads);
@@ -107,7 +107,7 @@ namespace SPHDissipation {
       add_up(threads, total, static_cast<int>(n));
     }
 
-    // the same if thread k adds to the rows of the particles touched[k] alone, each of which stands there once
+    // Do the same if thread k adds to the rows of the particles touched[k] alone, each listed once
     template <class Task>
     void run(Threads &threads, Row *total, std::size_t n,
              const std::vector<std::vector<int>> &touched, const Task &task)
@@ -127,11 +127,11 @@ namespace SPHDissipation {
         });
     }
 
-    // what run() consists of, for a task with several sums
+    // Parts of run(), for a task with several sums: begin(), zeroed() on each thread, add_up()
 
     void begin(const Threads &threads) { others.resize(threads.size() - 1); }
 
-    // n rows of zeros, of thread k; those of the first one are total
+    // Return n rows of zeros for thread k; total for the first one
     Row *zeroed(int k, Row *total, std::size_t n)
     {
       if (k > 0) {

@@ -28,7 +28,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// of a hash; three of them, and a bit that says that they are there, are a whole number that a double has exactly
+// Bits of a hash.  EACH hashes, and a bit that marks them, make a whole number that a double represents exactly
 
 static constexpr int BITS = 17, EACH = 3;
 static constexpr std::uint64_t LIMIT = std::uint64_t(1) << BITS;
@@ -59,11 +59,11 @@ class Tracer {
   Tracer(LAMMPS *lmp, const Fields &fields) :
       lmp(lmp), atom(lmp->atom), fields(fields),
       fine(0.75487766624669276 * 16777216.0 /
-           fields.end.length)    // no fraction: lattices have those
+           fields.end.length)    // no rational number, as on lattices
   {
   }
 
-  // Positions as far as writing a restart file does not change them, and as periodic images of each other
+  // Set the trace of a particle; positions count with the digits that restart files keep, and modulo periods
 
   void find(int i, Traced what, double *trace) const
   {
@@ -92,7 +92,7 @@ class Tracer {
   LAMMPS *const lmp;
   const Atom *const atom;
 
-  // in the box; as Domain::remap(), but in one step, for positions far away, or that are no numbers
+  // Find the image in the box as Domain::remap(), but in one step, for positions that are far away or not finite
 
   void find_image(const double *x, double *image) const
   {
@@ -117,7 +117,7 @@ class Tracer {
   const double fine;
 };
 
-// of the hash of a trait
+// Return true if the hashes of a trait differ
 
 bool differ(const double *one, const double *other, int trait)
 {
@@ -127,11 +127,11 @@ bool differ(const double *one, const double *other, int trait)
   return ((a ^ b) >> shift) % LIMIT != 0;
 }
 
-// not those of boundaries that follow the particles
+// Return a hash of the box, without boundaries that follow the particles
 
 bigint hash_of_box(const Domain *domain)
 {
-  constexpr std::uint64_t EXACT = (std::uint64_t(1) << 52) - 1;    // as a number of a restart file
+  constexpr std::uint64_t EXACT = (std::uint64_t(1) << 52) - 1;    // exact in a restart file
   Hash hash;
   for (int d = 0; d < 3; d++) {
     hash.add(std::uint64_t(domain->periodicity[d]));

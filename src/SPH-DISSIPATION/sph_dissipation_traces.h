@@ -23,36 +23,36 @@ class LAMMPS;
 
 namespace SPHDissipation {
 
-  // What the commands between two runs have changed.  When a run ends, each particle gets a trace, hashes of what it has; it
-  // takes them along, also through restart files.  When the next run begins, the hashes are compared.
+  // Changes by commands between two runs.  At the end of a run, each particle gets a trace: hashes of its traits, which it
+  // keeps, also in restart files.  The next run compares the hashes.
 
-  // what a particle has
+  // Traits of a particle
 
   enum Trait { PLACE, VELOCITY, SPIN, TYPE, MASS, DENSITY, ENERGY, STATES, NTRAIT };
 
-  // what is traced of it: REST leaves out what moves and what flows, of walls
+  // Traced traits: REST, for walls, has place, type, and mass alone
 
   enum class Traced { NOTHING, REST, ALL };
 
   struct Changes {
     bool known = false;        // a run has ended before
     bool particles = false;    // some have come or gone
-    bool box = false;          // in periodic directions
-    bool step = false;         // its number
-    bool of[NTRAIT] = {};      // of particles that have stayed
+    bool box = false;          // the box, in periodic directions
+    bool step = false;         // the number of the step
+    bool of[NTRAIT] = {};      // traits of particles that have stayed
 
-    // neither motion nor neighbors
+    // Return true if nothing has changed motion or neighbors
     bool none_of_motion() const
     {
       return known && !particles && !box && !of[PLACE] && !of[VELOCITY] && !of[SPIN] && !of[TYPE];
     }
-    // The same particles at other places: then densities of density continuity follow their sums as in a motion, otherwise
-    // they stay.  Those that a command has set stay, and all others with them
+    // Return true for the same particles at other places: then densities of density continuity follow their sums as in a
+    // motion; otherwise, and if a command has set any of them, all stay
     bool places_alone() const
     {
       return known && !particles && of[PLACE] && !of[TYPE] && !of[MASS] && !of[DENSITY];
     }
-    // positions are those of another time: a command may read them, with the velocities, or set the number of the step
+    // Return true if positions are those of another time: also velocities, or the number of the step, have changed
     bool other_time() const { return of[PLACE] && (of[VELOCITY] || step); }
   };
 

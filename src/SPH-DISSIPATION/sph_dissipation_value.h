@@ -28,23 +28,23 @@ namespace SPHDissipation {
 
   class Value {
    public:
-    // Read a word of the input; an error if it is neither.
+    // Read a word of the input; stop if the word is neither.
     void set(LAMMPS *, const std::string &word);
 
-    // Find the variable, at the start of a run; an error, which names the owner, if there is none.
-    // False if it is neither of equal style nor, where that may be, of atom style.
+    // Find the variable, at the start of a run; stop, with a message in the name of the owner, if there is none.
+    // Return false if it is neither of equal style nor, if may_be_by_atom, of atom style.
     [[nodiscard]] bool init(LAMMPS *, const std::string &owner, bool may_be_by_atom);
 
     // Evaluate the variable at this step; if it is of atom style, for owned particles of the group.
     void evaluate(LAMMPS *, int igroup);
-    // an error, of all ranks, about a variable that is no finite number, for any particle of a group
+    // Stop, on all ranks, if the variable is not finite, for any particle of a group
     void demand_finite(LAMMPS *, int groupbit, const std::string &owner) const;
 
     const std::string &name() const { return variable_name; }    // name of the variable
     bool varies() const { return is_variable; }
     bool is_by_atom() const { return by_atom; }
     bool is_zero() const { return !varies() && number == 0.0; }    // at all times
-    double now() const { return number; }                          // if it is not of atom style
+    double now() const { return number; }                          // unless it is of atom style
     double operator()(int i) const { return column.empty() ? number : column[i]; }
     double memory_usage() const    // bytes
     {
@@ -54,7 +54,7 @@ namespace SPHDissipation {
    private:
     bool is_variable = false;
     std::string variable_name;
-    int variable = -1;    // its index
+    int variable = -1;    // index of the variable
     bool by_atom = false;
     double number = 0.0;
     std::vector<double> column;    // by owned particle
@@ -65,7 +65,7 @@ namespace SPHDissipation {
   //   for (Keywords key(lmp, "Fix sph/dt", 4, narg, arg); key.next();)
   //     if (key.is("min")) smallest = key.positive();
   //
-  // A keyword that is none of those that is() compares it with, and one with too few words, is an error.
+  // Stops for an unknown keyword, which is() has never found, and for a keyword with too few words.
 
   class Keywords {
    public:
@@ -76,8 +76,8 @@ namespace SPHDissipation {
     }
 
     bool next();    // Go to the next keyword; false if there is none.
-    bool is(const std::string &name, int nwords = 1);    // it is this one; go behind its words
-    void more(int nwords);                               // It has so many words more.
+    bool is(const std::string &name, int nwords = 1);    // if it is this one, go behind its words
+    void more(int nwords);                               // Go behind more words of it.
 
     const std::string &name() const { return keyword; }
     char **words() const { return arg + at; }
@@ -85,16 +85,16 @@ namespace SPHDissipation {
     double number(int k = 0) const;
     int whole_number() const;
     double positive() const;                                        // > 0
-    int choice(std::initializer_list<const char *> words) const;    // index of the one that it is
-    void demand(bool good, const std::string &what) const;    // "must be what, not word": an error
+    int choice(std::initializer_list<const char *> words) const;    // index of the word among these
+    void demand(bool good, const std::string &what) const;    // error "must be what, not word"
 
    private:
     LAMMPS *const lmp;
     const std::string owner;
     const int narg;
     char **const arg;
-    int at, end;            // range of its words
-    std::string keyword;    // empty: in front of the first one
+    int at, end;            // range of the words of the keyword
+    std::string keyword;    // empty: in front of the first keyword
     bool known = true;
   };
 

@@ -46,7 +46,10 @@ void StiffStage::configure(const ViscousSettings &settings_in, int groups_in,
   style = style_in;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set acting to keep * now + scale * (f - own), from the forces of other styles, f - own; set increment to acting before
+   less keep * now.
+------------------------------------------------------------------------- */
 
 static void carry(double scale, const double *f, const double *own, const double *now, double keep,
                   double *acting, double *increment)
@@ -157,7 +160,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
 }
 
 /* ----------------------------------------------------------------------
-   from before, guess, and force
+   Find x from before, guess, and force.
 ------------------------------------------------------------------------- */
 
 void StiffStage::solve_step()
@@ -191,7 +194,8 @@ void StiffStage::resize()
 }
 
 /* ----------------------------------------------------------------------
-   the spin of a particle without inertia stays as it is; there are no torques then
+   Find the unknown particles and bodies, their masses, and velocities before.  The spin of a particle without inertia does
+   not change: there are no torques then.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::find_unknowns(const double *inertia)
@@ -223,9 +227,8 @@ void ViscousStage::find_unknowns(const double *inertia)
 }
 
 /* ----------------------------------------------------------------------
-   the forces of other styles, from what vest carries, and the guess of the integrator instead of it;
-   where the particles may have changed places since, it is v-.  So it is at the start of a run, to which no
-   force is carried: vest may be that of the run before
+   Take the forces of other styles from vest, and set vest to the guess of the integrator; to v- where the order of the
+   particles may have changed, and at the start of a run, to which vest carries no forces.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_guess()
@@ -259,7 +262,9 @@ void ViscousStage::set_guess()
   });
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set guess and force of all unknowns, from vest and the forces of LAMMPS, and the mean velocity.
+------------------------------------------------------------------------- */
 
 void ViscousStage::gather()
 {
@@ -283,13 +288,13 @@ void ViscousStage::gather()
     guess[row] = rigid.of().guess[k];
     force[row] = on_bodies[k] + others[row];
   }
-  if (settings.mode != Viscous::IMPLICIT) return;    // nobody needs the scale
+  if (settings.mode != Viscous::IMPLICIT) return;    // rkl2 needs no scale
   sum(sums, 4);
   for (int d = 0; d < 3; d++) mean[d] = (sums[3] > 0.0) ? sums[d] / sums[3] : 0.0;
 }
 
 /* ----------------------------------------------------------------------
-   of owned and ghost particles; those that are not unknown stay as they are, as increments zero
+   Set the velocities of owned and ghost particles for the loops; 0, since they are increments, if a particle is not unknown.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_velocities(const Unknowns &values)
@@ -309,7 +314,9 @@ void ViscousStage::set_velocities(const Unknowns &values)
   exchange.forward({field(particle, particle->u, 3), engine.spins()});
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Find cdot and the bulk term for the velocities in the rows of the loops.
+------------------------------------------------------------------------- */
 
 void ViscousStage::set_bulk_term()
 {
@@ -323,7 +330,9 @@ void ViscousStage::set_bulk_term()
   pressure.set_bulk_term(bound, boundary.bits());
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Note the values of boundary particles for increments of 0 in the fluid, to subtract them later.
+------------------------------------------------------------------------- */
 
 void ViscousStage::find_rest()
 {
@@ -341,7 +350,7 @@ void ViscousStage::find_rest()
 }
 
 /* ----------------------------------------------------------------------
-   out = Gamma in
+   Set out = Gamma in.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::friction(const Unknowns &in, Unknowns &out)
@@ -376,7 +385,9 @@ void ViscousStage::friction(const Unknowns &in, Unknowns &out)
   for (int k = 0; k < rows_of_bodies; k++) out[first_of_bodies() + k] = -on_bodies[k];
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Set out = (M + h Gamma) in.
+------------------------------------------------------------------------- */
 
 void StiffStage::apply(const Unknowns &in, Unknowns &out)
 {
@@ -400,8 +411,9 @@ void StiffStage::sum(double *values, int n) const
 }
 
 /* ----------------------------------------------------------------------
-   no iteration is needed if the residual moves particles by less than the rounding of positions; bodies, which
-   may be heavy, do not count: the accuracy is that of the velocities of the fluid
+   Return the square of the scale of the residual.  It includes a velocity that moves particles by the rounding error of
+   positions, so that a smaller residual needs no iteration.  Bodies, which may be heavy, do not count: the accuracy is that
+   of the velocities of the fluid.
 ------------------------------------------------------------------------- */
 
 double ViscousStage::scale_sq() const
@@ -418,7 +430,7 @@ double ViscousStage::scale_sq() const
 }
 
 /* ----------------------------------------------------------------------
-   (M + h Gamma) x = residual
+   Solve (M + h Gamma) x = residual; warn once in a run, or stop, if the iterations do not converge.
 ------------------------------------------------------------------------- */
 
 void StiffStage::solve()
@@ -460,7 +472,7 @@ std::string StiffStage::moment() const
 }
 
 /* ----------------------------------------------------------------------
-   the same on all processors
+   Stop if values are not finite; finite is the same on all processors.
 ------------------------------------------------------------------------- */
 
 void StiffStage::check_finite(bool finite) const
@@ -473,7 +485,7 @@ void StiffStage::check_finite(bool finite) const
 }
 
 /* ----------------------------------------------------------------------
-   x = v_b - guess
+   Find x = y_b - guess for a step of this length.
 ------------------------------------------------------------------------- */
 
 void StiffStage::step(double interval)
@@ -487,10 +499,9 @@ void StiffStage::step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   The velocity at the start of a run is that of the time of the positions.  Extrapolated from v_b of two
-   intervals, v_b is the same to second order, as that of the last step of a run before was.  The
-   intervals are those for which the half kick of a stiff motion takes all of it; v_b of the
-   trapezoidal step is that of half the interval with the others.
+   Find y_b at the start of a run, where y belongs to the time of the positions: extrapolate from y_b of two intervals, so
+   that y_b is y to second order.  With these intervals, the half kick removes all of a stiff motion; y_b of the trapezoidal
+   step needs twice the interval of the other schemes.
 ------------------------------------------------------------------------- */
 
 void StiffStage::start()
@@ -505,7 +516,7 @@ void StiffStage::start()
 }
 
 /* ----------------------------------------------------------------------
-   M (v_b - v-) = h F(v_b) with v_b = guess + x, F(v_b) = F(guess) - Gamma x
+   Solve M (y_b - y-) = h F(y_b) with y_b = guess + x, F(y_b) = F(guess) - Gamma x.
 ------------------------------------------------------------------------- */
 
 void StiffStage::implicit_step(double part)
@@ -517,9 +528,8 @@ void StiffStage::implicit_step(double part)
 }
 
 /* ----------------------------------------------------------------------
-   M (Y1 - v-) = h F(Y1), M (Y2 - v-) = (dt - h) F(Y1) + h F(Y2), h = gamma dt
-   the residual of the first solution is h F(Y1) - M (Y1 - v-), which gives F(Y1) without another
-   application of Gamma
+   Solve M (Y1 - y-) = h F(Y1), M (Y2 - y-) = (dt - h) F(Y1) + h F(Y2), h = gamma dt.  The residual of the first solution is
+   h F(Y1) - M (Y1 - y-), which gives F(Y1) without another application of Gamma.
 ------------------------------------------------------------------------- */
 
 void StiffStage::sdirk2_step(double interval)
@@ -536,8 +546,8 @@ void StiffStage::sdirk2_step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   Power iteration from a vector without order: of particles that are not on a lattice, or near a free surface,
-   where volumes are large, the fastest mode may be faster than the estimate from the coefficients.
+   Return a lower estimate of the rate of the fastest mode, by power iteration from a vector without order.  It may be faster
+   than on lattices where particles are disordered or, with their large volumes, near a free surface.
 ------------------------------------------------------------------------- */
 
 double StiffStage::estimated_rate()
@@ -574,14 +584,14 @@ double StiffStage::estimated_rate()
 }
 
 /* ----------------------------------------------------------------------
-   Increments Y_j of the stages, and what is multiplied with Gamma to give them,
-   M Y_j = dt (theta_j F(v-) - Gamma Z_j) with theta_s = 1: v_b = v- + Z_s, x = Z_s for the guess is v-.
+   Compute the increments Y_j of the stages, and Z_j with M Y_j = dt (theta_j F(y-) - Gamma Z_j), theta_s = 1:
+   y_b = y- + Z_s, and x = Z_s since the guess is y-.
 ------------------------------------------------------------------------- */
 
 void StiffStage::rkl2_step(double interval)
 {
   constexpr int OFTEN = 20;          // steps between estimates
-  constexpr double SAFETY = 1.15;    // for they are too low
+  constexpr double SAFETY = 1.15;    // factor of estimates, which are too low
   if (outdated || (update->ntimestep % OFTEN == 0 && !update->setupflag)) {
     const double estimate = estimated_rate();
     check_finite(std::isfinite(estimate));
@@ -636,7 +646,8 @@ void StiffStage::rkl2_step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   the ghosts, too, get the increment, for fix deform may have changed their velocities
+   Add an increment to the velocities and spins of owned particles and of ghosts, whose velocities fix deform may have
+   changed.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::add_velocities(const Unknowns &increment)
@@ -659,8 +670,8 @@ double StiffStage::memory_usage() const
 }
 
 /* ----------------------------------------------------------------------
-   At the start of a run, desph_before is what the step before has added to the energy that its forces have seen;
-   later it is the rate by which the energy has gone half a step beyond the middle of the step.
+   Find T_b, and change esph and desph_before accordingly.  At the start of a run, desph_before is the energy that the step
+   before has added after its forces; later it is the rate with which the energy has gone on by half a step from the middle.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::run(int prescribed_in)
@@ -687,10 +698,10 @@ void TemperatureStage::run(int prescribed_in)
 }
 
 /* ----------------------------------------------------------------------
-   The temperature belongs to an energy and to the density of this moment: what the pressure does to the elastic energy
-   is no source of heat, and what it has done since the middle of the step comes back.  The scheme
-   euler takes the temperature of the end of the interval, but the pressure needs that of its middle: so the work of the
-   thermal pressure counts half, which keeps sound undamped.
+   Find the unknown particles, their heat capacities, temperatures before, and the heat of pressure.  The temperature belongs
+   to an energy and to the present density: elastic work is no source of heat, and its part since the middle of the step is
+   taken back.  The scheme euler has the temperature of the end of the interval, but the pressure needs that of its middle:
+   so the work of the thermal pressure counts half, which keeps sound undamped.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::find_unknowns()
@@ -721,7 +732,7 @@ void TemperatureStage::find_unknowns()
 }
 
 /* ----------------------------------------------------------------------
-   the heat at the guess, with conduction
+   Set force to the heat per time at the guess, with conduction.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::gather()
@@ -741,7 +752,7 @@ void TemperatureStage::gather()
     sums[0] += mass[k] * before[k];
     sums[1] += mass[k];
   }
-  if (settings.mode != Viscous::IMPLICIT) return;    // nobody needs the scale
+  if (settings.mode != Viscous::IMPLICIT) return;    // rkl2 needs no scale
   sum(sums, 2);
   mean = (sums[1] > 0.0) ? sums[0] / sums[1] : 0.0;
 }
@@ -767,7 +778,7 @@ void TemperatureStage::send_temperatures()
 }
 
 /* ----------------------------------------------------------------------
-   of increments, which are 0 where the temperature is prescribed
+   Set out = Lambda in, for increments of the temperature, which are 0 where the temperature is prescribed.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
@@ -788,7 +799,8 @@ void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
 }
 
 /* ----------------------------------------------------------------------
-   no iteration is needed if the residual changes temperatures by less than their rounding
+   Return the square of the scale of the residual.  It includes the rounding error of temperatures, so that a smaller
+   residual needs no iteration.
 ------------------------------------------------------------------------- */
 
 double TemperatureStage::scale_sq() const
@@ -801,7 +813,7 @@ double TemperatureStage::scale_sq() const
 }
 
 /* ----------------------------------------------------------------------
-   with the scheme euler, by a step to the middle of the first interval, which has no new extremum either
+   Find T_b at the start of a run; with euler by a step to the middle of the first interval, which makes no new extremum.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::start()

@@ -27,24 +27,23 @@ namespace SPHDissipation {
   enum class Viscous { EXPLICIT, RKL2, IMPLICIT };
   enum class Scheme { TRAPEZOIDAL, SDIRK2, EULER };
 
-  // of SDIRK2, 1 - 1/sqrt(2): stiffly accurate and L-stable, R. Alexander, SIAM J. Numer. Anal. 14, 1006
-  // (1977)
+  // gamma of SDIRK2, 1 - 1/sqrt(2): stiffly accurate and L-stable, R. Alexander, SIAM J. Numer. Anal. 14, 1006 (1977)
 
   constexpr double SDIRK2_GAMMA = 0.29289321881345247560;
 
   struct ViscousSettings {
     Viscous mode = Viscous::EXPLICIT;
     Scheme scheme = Scheme::TRAPEZOIDAL;
-    int stages = 0;    // 0: as many as the rates need
+    int stages = 0;    // of rkl2; 0: as many as the rates need
     double tolerance = 1.0e-6;
     int iterations = 1000;    // at most
     bool must_converge = false;
 
     bool trapezoidal() const { return mode == Viscous::IMPLICIT && scheme == Scheme::TRAPEZOIDAL; }
 
-    // The force is the mean one of a decay over the whole time step.  In a longer step it
-    // overshoots, and adds kinetic energy above twice the step.  The force of the trapezoidal step
-    // is that of one moment, and the next step removes the excess.
+    // Return true if the force is the mean of a decay over the whole time step: in a longer step it overshoots, and above
+    // twice the step it adds kinetic energy.  The force of the trapezoidal step is that of one moment: the next step removes
+    // the excess.
 
     bool force_is_a_mean() const { return mode != Viscous::EXPLICIT && !trapezoidal(); }
 
@@ -56,10 +55,9 @@ namespace SPHDissipation {
     }
     bool operator!=(const ViscousSettings &b) const { return !(*this == b); }
 
-    // First guess of the velocity in the forces: this many increments of half a step after the one
-    // in the middle of the step.  The time whose velocity acts in the friction of the scheme is the
-    // best guess where the velocity is smooth; the stages of RKL2 begin in the middle, and noise is
-    // not smooth.
+    // Return the time of the first guess of the velocity in the forces, in half steps after the middle of the step.  Best,
+    // if the velocity is smooth, is the time whose velocity the friction of the scheme has; the stages of RKL2 begin in the
+    // middle, and noise is not smooth.
 
     double extrapolation(bool noise) const
     {
@@ -72,44 +70,44 @@ namespace SPHDissipation {
   class BoundaryStage;
   class PressureStage;
 
-  // A step of M dy/dt = F(y), F(y) = F(0) - Gamma y, that is stable for all rates, at fixed
-  // positions: for velocities, or for temperatures.  In the step from the middle of one to the
-  // middle of the next, y- to y+, what an integrator makes of it is y+ = y- + dt M^-1 F(y_b).  This
-  // finds y_b, which the forces use:
-  //   rkl2:         y_b = a combination of y- and of those of the stages, see RKL2
+  // Solves M dy/dt = F(y), F(y) = F(0) - Gamma y, for velocities or temperatures y at fixed positions, stable for all rates.
+  // From the middle of one step, y-, to the middle of the next one, y+, the integrator makes y+ = y- + dt M^-1 F(y_b).
+  // This class finds y_b, which the forces use:
+  //   rkl2:         y_b = a combination of y- and of the stages, see RKL2
   //   trapezoidal:  y_b = (y- + y+)/2
   //   euler:        y_b = y+
   //   sdirk2:       y_b = (1 - gamma) Y1 + gamma Y2 of its two stages
-  // In the first half step of a run, y- is that of the time of the positions: y_b is the same to second
-  // order in the time step, without the fast motions that would not be stable, see start().
+  // In the first half step of a run, y- belongs to the time of the positions: y_b is y- to second order in the time step,
+  // less the fast modes that would not be stable, see start().
 
   class StiffStage : public Stage {
    public:
-    // where = for messages, after the number of the step
+    // where = text of messages behind the number of the step
     StiffStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
         Stage(lmp, engine, exchange), where(where)
     {
     }
 
-    // of all integrators of the fluid, and bits of their groups; style = of the fluid, for messages
+    // Take the settings, the same for all integrators of the fluid, and bits of their groups; style = of the fluid, for
+    // messages
 
     void configure(const ViscousSettings &, int groups, const std::string &style);
     bool active() const { return settings.mode != Viscous::EXPLICIT; }
     const ViscousSettings &choice() const { return settings; }
 
-    // of the fastest mode, on lattices; other coefficients have others
+    // Set the rate of the fastest mode on lattices; forget the rates, since coefficients have changed
 
     void set_rate(double rate_in) { known_rate = rate_in; }
     void forget_rates() { outdated = true; }
     bool has_old_rates() const { return outdated; }
 
-    void begin_run();    // run() calls it if it is there for the first forces
+    void begin_run();    // solve_step() calls it in a setup
 
-    // set forces, torques and heat of LAMMPS aside, with forces and torques zero afterwards; bring them back
+    // Set forces, torques and heat of LAMMPS aside, with forces and torques zero afterwards; bring them back
     void set_aside();
     void restore();
 
-    // of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
+    // Numbers of the last step: iterations, or stages; residual; seconds; and applications of Gamma in this run
 
     enum { ITERATIONS, RESIDUAL, SECONDS, APPLICATIONS, NSTATISTICS };
     double statistics[NSTATISTICS] = {};
@@ -128,23 +126,23 @@ namespace SPHDissipation {
     ViscousSettings settings;
     std::string style;
     int groups = 0;
-    bool symmetric = true;       // Gamma is
+    bool symmetric = true;       // Gamma is symmetric
     int prescribed = 0;          // bits of the groups of particles that are not unknown
     int width = 1;               // unknowns per particle
     std::vector<int> unknown;    // owned particles
     int rows_of_bodies = 0;      // unknowns behind those of the particles
     Unknowns before;             // y-
-    Unknowns guess, force;       // y_b, F(y_b) of the beginning; the solution is y_b = guess + x
+    Unknowns guess, force;       // first y_b and its F(y_b); the solution is y_b = guess + x
 
     bool is_unknown(int i) const;
-    // function(i, row) for each unknown particle i, whose unknowns are row ... row + width - 1; shared among the threads
+    // Call function(i, row) for each unknown particle i, with unknowns row ... row + width - 1; shared among the threads
     template <class Function> void for_unknown(const Function &function)
     {
       team().for_each(static_cast<int>(unknown.size()), [&](int k) {
         function(unknown[k], width * static_cast<std::size_t>(k));
       });
     }
-    void resize();    // of all unknowns
+    void resize();    // all arrays of unknowns
     std::size_t first_of_bodies() const { return width * unknown.size(); }
     void solve_step();
 
@@ -157,10 +155,10 @@ namespace SPHDissipation {
    private:
     const std::string where;
     double known_rate = 0.0,
-           rate = 0.0;       // of the fastest mode: on lattices; of these particles, at least
-    bool outdated = true;    // are the two
-    bool warned = false;     // of iterations that were not enough, in this run
-    double h = 0.0;          // of M + h Gamma
+           rate = 0.0;       // of the fastest mode: on lattices; estimated for these particles
+    bool outdated = true;    // both rates are outdated
+    bool warned = false;     // of too few iterations, in this run
+    double h = 0.0;          // time in the matrix M + h Gamma
     std::vector<double> forces_before, torques_before, heat_before;
 
     std::string moment() const;
@@ -171,13 +169,12 @@ namespace SPHDissipation {
     double estimated_rate();
   };
 
-  // Large viscosities.  Unknown are the velocities, with spins, of the particles of the fluid that the integrators
-  // move, and those of bodies that the fluid moves.  This stage sets v_b as the velocity that the forces see (vest,
-  // omegaest), on owned and ghost atoms.
-  // One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
+  // Large viscosities.  Unknown are the velocities, and spins, of the fluid particles that the integrators move, and the
+  // velocities of bodies that the fluid moves.  This stage sets v_b as the velocity in the forces (vest, omegaest), on owned
+  // and ghost atoms.  One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
   //
-  // F contains the forces of other styles.  They come after those of the pair style, so F has those
-  // of the step before.  In the first half step of a run they are not known.
+  // F contains the forces of other styles, which come after the pair style: F has those of the step before, and none in the
+  // first half step of a run.
 
   class ViscousStage : public StiffStage {
    public:
@@ -188,18 +185,17 @@ namespace SPHDissipation {
     {
     }
 
-    // From the integrator at the beginning of a step, of a particle that it has moved: vest, or omegaest,
-    // travels with it as v + dt/m times the forces of other styles, until begin() makes it the
-    // guess again, extrapolated if the particle is still where it was.  keep: 0 if v is added later
+    // Called by the integrator at the beginning of a step for a particle that it has moved: set vest, or omegaest, to
+    // v + dt/m times the forces of other styles, which travels with the particle until begin() replaces it by the guess of
+    // v_b.  keep: 0 if v is added later, else 1
 
-    void begin_carrying();    // before these, which threads may call for different particles
+    void begin_carrying();    // before the next two, which threads may call for different particles
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
 
-    // One step: begin() sets the forces aside; then the passes, with the guess of v_b that vest is; then
-    // run(), after which the forces are those of begin() again, and the passes follow with v_b.
-    // Particles with a bit of prescribed are not unknown; omega, omegaest and inertia: nullptr
-    // without spin
+    // One step: begin() sets the forces aside and vest to the guess of v_b; the passes run; run() finds v_b and brings the
+    // forces of begin() back; the passes run with v_b.  Particles with a bit of prescribed are not unknown; omegaest and
+    // inertia: nullptr without spins
 
     void begin(int prescribed, double **omegaest, const double *inertia);
     void run(NeighList *, const double *bound, bool symmetric);
@@ -210,7 +206,7 @@ namespace SPHDissipation {
           bytes(others, ahead, ahead_spin, rest);
     }
 
-    // the velocity, relative to the mean one, of the fluid before the step and in the solution
+    // Return the scale of the residual, from velocities relative to their mean before the step and in the solution
     double scale_sq() const override;
 
    private:
@@ -226,11 +222,11 @@ namespace SPHDissipation {
     Unknowns others;        // forces of other styles
     double mean[3] = {};    // velocity
 
-    // increments on v-, spin-, of the integrator's guess, by particles as they were then
+    // increments of the integrator's guess over v-, spin-, by the order of particles when carry_force() was called
 
     std::vector<double> ahead, ahead_spin;
 
-    // what a boundary particle brings in where the fluid is at rest
+    // values of a boundary particle with increments of 0 in the fluid
 
     struct Rest {
       int i;
@@ -248,11 +244,11 @@ namespace SPHDissipation {
     void add_velocities(const Unknowns &increment);
   };
 
-  // The same of heat, C dT/dt = R - Lambda T with the heat capacities C and the flow of heat of each pair.
-  // Unknown are the temperatures of the particles that conduct and whose energy the integrators advance.  This stage sets
-  // T_b as the temperature that conduction and the pressure see, by the internal energy of owned atoms as
-  // they are during the forces, and by desph_before, so that the energy at the end of the step is that of the
-  // flows at T_b.  R is the heat of all else: of the last pass 2 that has seen the velocities of the step.
+  // Stiff conduction of heat, C dT/dt = R - Lambda T with the heat capacities C and the flows of heat of the pairs.  Unknown
+  // are the temperatures of the particles that conduct and whose energy the integrators advance.  This stage sets T_b as the
+  // temperature in conduction and pressure, by the internal energy of owned atoms during the forces, and desph_before, so
+  // that the energy at the end of the step is that of the flows at T_b.  R is all other heat, from the last pass 2 with the
+  // velocities of the step.
 
   class TemperatureStage : public StiffStage {
    public:
@@ -263,7 +259,7 @@ namespace SPHDissipation {
     {
     }
 
-    // after pass 2; prescribed as ViscousStage::begin()
+    // After pass 2: solve for T_b; prescribed: see ViscousStage::begin()
     void run(int prescribed);
 
     double memory_usage() const override
@@ -271,18 +267,18 @@ namespace SPHDissipation {
       return StiffStage::memory_usage() + bytes(flow, temperature);
     }
 
-    // temperature, relative to the mean one, before the step and in the solution
+    // Return the scale of the residual, from temperatures relative to their mean before the step and in the solution
     double scale_sq() const override;
 
    private:
     BoundaryStage &boundary;
     std::vector<double> flow;           // heat per time that owned and ghost atoms get
-    std::vector<double> temperature;    // of owned atoms, of their energies before run()
-    double mean = 0.0;                  // temperature before the step
+    std::vector<double> temperature;    // of owned atoms, from their energies before run()
+    double mean = 0.0;                  // mean temperature before the step
 
     void find_unknowns();
     void gather();
-    void set_temperatures();     // of owned and ghost atoms, those of the guess
+    void set_temperatures();     // of owned and ghost atoms to those of the guess
     void send_temperatures();    // of owned atoms to ghosts
     void friction(const Unknowns &in, Unknowns &out) override;
     void start() override;

@@ -73,7 +73,7 @@ void WallMotion::init()
 }
 
 /* ----------------------------------------------------------------------
-   Evaluate all values at this time step; true if a variable took something from a compute.
+   Evaluate all values at this time step; return true if a variable reads a compute.
 ------------------------------------------------------------------------- */
 
 bool WallMotion::evaluate(double *result)
@@ -98,10 +98,9 @@ void WallMotion::demand_finite() const
 }
 
 /* ----------------------------------------------------------------------
-   Set values and rates at the start of a run.  Variables that are functions of time get their rate
-   from the values in the next steps.  Those that depend on the particles are not known in advance:
-   they keep the rate of the last step, if a run ended with it, and so do those that no longer
-   change.
+   Set values and rates at the start of a run.  Variables that are functions of time get their rate from the values in the
+   next steps.  Variables that depend on the particles are not known in advance: they keep the rate of the last step of a
+   run, and so do variables that no longer change.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()
@@ -121,8 +120,8 @@ void WallMotion::start()
 }
 
 /* ----------------------------------------------------------------------
-   Set the rates to the changes over the step before this one, as the parabola through now and the two
-   steps to come has them.  In a run of no steps, ramp() of variables would have no slope.
+   Set the rates to the changes over the step before this one of the parabola through the present values and those of the
+   next two steps.  In a run of no steps, ramp() of variables would have no slope.
 ------------------------------------------------------------------------- */
 
 void WallMotion::estimate_rates()

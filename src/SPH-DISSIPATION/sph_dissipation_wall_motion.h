@@ -23,15 +23,15 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Motion of a rigid wall: a velocity, and a rotation about an axis through a point that travels
-  // with this velocity.  Each component is a number or an equal-style variable.
+  // Motion of a rigid wall: a velocity, and a rotation about an axis through a point that moves with this velocity.  Each
+  // component is a number or an equal-style variable.
 
   class WallMotion : protected Pointers {
    public:
     // owner: for messages
     WallMotion(class LAMMPS *lmp, const std::string &owner) : Pointers(lmp), owner(owner) {}
 
-    // arguments of the commands; what they mean is checked here
+    // Read and check the arguments of the commands
 
     void set_velocity(char **);    // vx vy vz
     void set_rotation(char **);    // px py pz ax ay az omega
@@ -46,8 +46,8 @@ namespace SPHDissipation {
     void move_point();                // with the wall
     bool has_variables() const { return any_variable; }
 
-    // the point on the axis in restart files: it is valid only for the rotation that the input
-    // gives
+    // Write and read the point on the axis in restart files, and the given rotation: the point is valid only if the input
+    // has the same rotation
 
     static constexpr int NRESTART = 9;
     bool rotates() const { return rotation_given; }
@@ -58,8 +58,8 @@ namespace SPHDissipation {
     struct Component {
       Value value;
       double now = 0.0;     // at the end of the last step
-      double mean = 0.0;    // mean of its values at both ends of this step
-      double rate = 0.0;    // rate of its change
+      double mean = 0.0;    // mean of the values at both ends of this step
+      double rate = 0.0;    // time derivative
     };
     static constexpr int NVALUES = 4;
 
@@ -70,7 +70,7 @@ namespace SPHDissipation {
                        0.0, 0.0, 1.0};    // point and direction of the axis as in the input
     double point[3] = {}, axis[3] = {0.0, 0.0, 1.0};
     bool any_variable = false;
-    bigint known_step = -1;    // time step that the values are for, -1 if none
+    bigint known_step = -1;    // step of the values, -1: none
 
     void read(Component &, const char *);
     bool evaluate(double *);

@@ -14,9 +14,9 @@
 #ifndef LMP_SPH_DISSIPATION_WALL_TERMS_H
 #define LMP_SPH_DISSIPATION_WALL_TERMS_H
 
-// Motion of a rigid wall, what the fluid around its particles adds up to, and what follows from it for
-// one of them: S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), and the extension of
-// velocity, spin and temperature behind the surface.  No LAMMPS include.
+// Motion of a rigid wall; sums over the fluid around a boundary particle, and the values of the particle that follow:
+// S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), with the extension of velocity, spin and temperature
+// behind the surface.  No LAMMPS include.
 
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_settings.h"
@@ -27,18 +27,17 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Extrapolation of a field of the fluid behind a surface, by a least-squares fit with weights d^2,
-  // where d are the distances of fluid particles from the surface; next to the surface, q/d is no
-  // slope.  The fit needs the means <q d^3>, <q d^4>, and those of d^3 to d^6. The weights decide how
-  // fast viscous forces damp what changes from one layer of particles to the next: with these, not
-  // faster than inside of the fluid.  The distances are bounded from below, each by CLOSEST spacings
-  // of the particles, their mean by CLOSEST_MEAN, which on lattices is that of the first layer.
+  // Extrapolation of a field q of the fluid behind a surface, by a least-squares fit with weights d^2, where d are the
+  // distances of fluid particles from the surface; next to the surface, q/d is no slope.  The fit needs the means <q d^3>,
+  // <q d^4>, and those of d^3 to d^6.  The weights decide how fast viscous forces damp differences from one layer of
+  // particles to the next: with these, not faster than inside of the fluid.  Each distance is at least CLOSEST spacings of
+  // the particles, their mean at least CLOSEST_MEAN, that of the first layer on lattices.
 
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
 
-  // Least distance d in surface_factor(), in support radii: the rate of a particle next to the surface, in units of nu/h^2, then
-  // has the same bound with any spacing.  Where the surface is not known, that of the first layer of a lattice, in spacings.
+  // Least distance d in surface_factor(), in support radii: the rate of a particle next to the surface, in units of nu/h^2,
+  // then has the same bound with any spacing.  Distance of the first layer of a lattice, in spacings, for unknown surfaces.
 
   constexpr double CLOSEST_PAIR = 0.05, FIRST_LAYER = 0.5;
 
@@ -52,17 +51,16 @@ namespace SPHDissipation {
     }
   };
 
-  // means of the powers of the distance
+  // Means of the powers of the distance
 
   struct DistanceMeans {
     double d3, d4, d5, d6;
 
-    // q is zero at the surface.  Least of <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2:
-    // the second term penalizes a bend by what it adds at this depth, so that the field is straight
-    // deep in a wall, where only the first layer contributes.  It is also straight where all
-    // distances are equal, because <d^6> is raised by the share alike.  A field without a bend is
-    // exact.  The share is smaller for the spin, because its diffusion and the vortex viscosity
-    // bend it next to the surface.
+    // Fit q with zero at the surface: minimize <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2.  The
+    // second term makes the field straight deep in a wall, where only the first layer contributes.  The share alike, by
+    // which <d^6> is raised, makes the field straight where all distances are equal.  The fit of a field without a bend is
+    // exact.  The share is smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next
+    // to the surface.
 
     static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
 
@@ -74,11 +72,11 @@ namespace SPHDissipation {
       return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
     }
 
-    // The same for what follows, which stays inside of the range of the fluid: the share is larger
+    // Share by which the next two fits raise <d^6> or <d^5>: larger, so that the result stays in the range of the fluid
 
     static constexpr double DAMPING = 0.1;
 
-    // its derivative is zero there
+    // Fit q with a derivative of zero at the surface
 
     SPH_FUNCTION Extension free(double f_d3, double f_d4) const
     {
@@ -87,7 +85,7 @@ namespace SPHDissipation {
       return {norm * (f_d3 * sixth - f_d4 * d5), 0.0, norm * (f_d4 * d3 - f_d3 * d4)};
     }
 
-    // derivative of the straight line through q
+    // Return the derivative of the straight line through q
 
     SPH_FUNCTION double straight_slope(double f_d3, double f_d4) const
     {
@@ -95,26 +93,26 @@ namespace SPHDissipation {
     }
   };
 
-  // Where the surface is, seen from a boundary particle w
+  // Place of the surface relative to a boundary particle w
 
   struct Surface {
     double normal[3];      // toward the fluid; zero: unknown
     double depth;          // distance of w from the surface
     double spacing;        // of the particles
-    double curvature;      // mean one, > 0: convex; for a flux of heat: see surface_heat()
-    double flux_volume;    // the same
-    double omega[3];       // angular velocity of the rigid body that w belongs to
+    double curvature;      // mean curvature, > 0: convex; for a flux of heat, see surface_heat()
+    double flux_volume;    // volume of w for a flux of heat
+    double omega[3];       // angular velocity of the rigid body of w
   };
 
-  // Type of the sums below: a number, or in the loops a vector of them, of which compilers warn as an argument of a template
+  // Type of the sums below: a number; in the loops a vector, wrapped because compilers warn of it as template argument
 
   struct OneNumber {
     typedef double type;
   };
 
-  // What the fluid around a boundary particle w adds up to, weighted with the kernel: sums over fluid
-  // particles f of V_f W(r_wf) times the quantity, S. Adami et al., J. Comput. Phys. 231, 7057 (2012)
-  // relative: to the velocity that the rigid body of w has at f; d: distance of f from the surface
+  // Sums over the fluid particles f around a boundary particle w, of V_f W(r_wf) times the quantity; S. Adami et al.,
+  // J. Comput. Phys. 231, 7057 (2012).  relative: to the velocity of the rigid body of w at f; d: distance of f from the
+  // surface
 
   template <class Number> struct BoundarySums {
     typedef typename Number::type Real;
@@ -136,7 +134,7 @@ namespace SPHDissipation {
 
   struct BoundarySum : BoundarySums<OneNumber> {};
 
-  // the sums of BoundarySum of the fluid that conducts heat alone
+  // The same sums over those fluid particles alone that conduct heat
 
   template <class Number> struct BoundaryHeatSums {
     typedef typename Number::type Real;
@@ -145,17 +143,17 @@ namespace SPHDissipation {
     Real td3, td4;             // temperature times d^3, d^4
     Real coefficient;
     Real flow,
-        tflow;    // heat that flows to the boundary particle, per its volume and temperature; times temperature
+        tflow;    // heat per time to w, per its volume and temperature; the same times temperature
   };
 
   struct BoundaryHeatSum : BoundaryHeatSums<OneNumber> {};
 
-  // Velocity of a wall: of a point on the axis, and a rotation about it.  r = vector from that point
+  // Velocity of a wall: velocity of a point on the axis, and rotation about the axis.  r = vector from that point
 
   struct WallVelocity {
     double point[3], axis[3];
     double u[3], omega;         // velocity of the point, angular velocity
-    double rate[3], turning;    // of their change
+    double rate[3], turning;    // time derivatives of u and omega
 
     SPH_FUNCTION void angular(double *w) const
     {
@@ -199,7 +197,7 @@ namespace SPHDissipation {
     }
   };
 
-  // What a wall does to the fluid
+  // Boundary condition of a wall
 
   enum class WallSpin { ZERO, RATE, FREE };
   enum class WallHeat { ADIABATIC, TEMPERATURE, FLUX };
@@ -207,15 +205,13 @@ namespace SPHDissipation {
   struct WallCondition {
     bool slip;
     WallSpin spin;
-    double alpha;    // of spin rate
+    double alpha;    // of spin rate: spin at the surface over half the vorticity
     double gravity[3];
   };
 
-  // A fluid particle with boundary particles on all sides is inside a wall.  A kernel with a small
-  // support of a few particle spacings, the least that a fluid has, detects this for any support
-  // radius of the fluid.  The near support of a fluid particle at a plane surface is half full of
-  // boundary particles, that of one in the corner of a box 7/8; more only inside.  A larger one
-  // would be as full in a pore as wide as the particle itself.
+  // A fluid particle is inside a wall if boundary particles fill more than this part of its near support, a few particle
+  // spacings wide, the least that a fluid has.  They fill half of it at a plane surface, 7/8 in the corner of a box, and
+  // more only inside.  A larger support would be as full in a pore as wide as the particle itself.
 
   constexpr double INSIDE_WALL = 0.9;
 
@@ -223,7 +219,7 @@ namespace SPHDissipation {
     double norm, scale;    // V W = norm * shape(scale * r)
   };
 
-  // of a boundary particle with the volume vol, for a fluid whose kernel has W = weight_norm * shape
+  // Return the near kernel of a boundary particle with the volume vol, for a fluid with W = weight_norm * shape
 
   SPH_FUNCTION NearKernel near_kernel(int dim, double support, double weight_norm, double vol)
   {
@@ -233,16 +229,16 @@ namespace SPHDissipation {
     return {vol * weight_norm * whole_power(support / radius, dim), 1.0 / radius};
   }
 
-  // Repulsion of the surfaces with thermal noise or free surfaces: a particle of the fluid has the energy k s^2/2, where s is
-  // the part beyond one half of a support of CONTACT spacings that boundary particles fill.  It is half full at the surface
-  // and at least 0.96 full inside of lattices.
+  // Repulsion of the surfaces with thermal noise or free surfaces: a fluid particle has the energy k s^2/2.  s is the part
+  // of a support of CONTACT spacings that boundary particles fill, less 1/2.  They fill 1/2 at the surface and at least 0.96
+  // inside of lattices.
 
   constexpr double CONTACT = 1.7;
   typedef WendlandC2 ContactKernel;
-  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // the same
-  constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces: of m c0^2
+  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // that of ContactKernel
+  constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces, over m c0^2
 
-  // norm = that of ContactKernel
+  // Return the contact kernel of a boundary particle with the volume vol; norm = of ContactKernel
 
   SPH_FUNCTION NearKernel contact_kernel(int dim, double support, double norm, double vol)
   {
@@ -266,7 +262,7 @@ namespace SPHDissipation {
     return 0.5 * stiffness * s * s;
   }
 
-  // force on the particle of the fluid at this distance from a boundary particle, over this distance
+  // Return the force on a fluid particle at this distance from a boundary particle, over this distance
 
   SPH_FUNCTION double repulsion_of(double stiffness, double s, const NearKernel &wall,
                                    double distance)
@@ -276,7 +272,7 @@ namespace SPHDissipation {
     return stiffness * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
   }
 
-  // pressure at a wall particle of this acceleration, sum.weight > 0
+  // Return the pressure of a wall particle with this acceleration, from the fluid around; sum.weight > 0
 
   SPH_FUNCTION double wall_pressure(const BoundarySum &sum, const double *gravity,
                                     const double *acceleration)
@@ -287,7 +283,7 @@ namespace SPHDissipation {
     return pressure;
   }
 
-  // the same from the background pressure at the surface alone
+  // Return the pressure of a wall particle with this acceleration, from the background pressure pb at the surface alone
 
   SPH_FUNCTION double surface_pressure(const Surface &surface, double rho0, double pb,
                                        const double *gravity, const double *acceleration)
@@ -298,7 +294,7 @@ namespace SPHDissipation {
     return pressure;
   }
 
-  // What turns sums of powers of the distance, sum.weight > 0, into means
+  // Factors that turn sums with powers of the distance into means, sum.weight > 0; the means of the powers
 
   struct DistanceNorms {
     double d, d3, d4;
@@ -319,8 +315,8 @@ namespace SPHDissipation {
              norm_d4 * stretch * stretch * sum.d6}};
   }
 
-  // Velocity and spin of the fluid go on behind the surface as its condition says: added to those of
-  // the wall, u and spin (nullptr: there is none) of one of its particles, sum.weight > 0
+  // Continue velocity and spin of the fluid behind the surface by the boundary condition: add them to u and spin (nullptr:
+  // none) of a wall particle, which begin with those of the wall; sum.weight > 0
 
   SPH_FUNCTION void extend_motion(const WallCondition &condition, const Surface &surface,
                                   const BoundarySum &sum, double *u, double *spin)
@@ -332,8 +328,8 @@ namespace SPHDissipation {
     const double *const normal = surface.normal;
     const double depth = surface.depth;
 
-    // across the surface the velocity is zero, with a slope that is zero where the fluid sticks: the
-    // image of the mean is enough, and does not ask for a smaller time step
+    // Across the surface the velocity is zero, with no-slip its slope as well: the image of the mean is enough, and needs no
+    // smaller time step
 
     const double mirrored = (depth < mean_d) ? depth / mean_d : 1.0;
     const double across = inner_product(sum.u, normal) * norm;
@@ -366,13 +362,11 @@ namespace SPHDissipation {
     }
   }
 
-  // Values of a wall particle of volume vol in the conduction of heat, sum.weight > 0.  value =
-  // temperature at the surface, behind which that of the fluid goes on as the velocity along it
-  // does, or heat per area and time.
-  // The conductivity is the mean of the fluid around it.
-  // Without either it has the temperature at which it gets no heat.  Pairs across the surface are
-  // shared by both of its sides, and conduct heat along the surface for both: so a wall particle
-  // has one half of its volume.
+  // Return the values of a wall particle of volume vol in the conduction of heat, sum.weight > 0.  value = heat per area and
+  // time, or temperature at the surface: then the temperature of the fluid continues behind the surface as the velocity
+  // along it does, and the conductivity is the mean of the fluid around.  An adiabatic particle has the temperature at which
+  // it gets no heat.  Pairs across the surface belong to both sides of it and conduct heat along it for both: so an
+  // adiabatic particle has half of its volume.
 
   SPH_FUNCTION FlowRow wall_conductor(WallHeat heat, double value, double vol, double conductivity,
                                       const Surface &surface, const BoundaryHeatSum &sum)
@@ -389,12 +383,12 @@ namespace SPHDissipation {
     return {vol, value + beyond.behind(surface.depth), sum.coefficient / sum.weight, 0.0};
   }
 
-  // Heat per time that the particle f of the fluid gets from the surface, by a wall particle w, r = x_w - x_f.  The sum of
-  // 2 V_f V_w F |r.n| over all pairs is the area of the surface, for the integral of F z^2 over one half of space is 1/2, if n
-  // is the normal where the pair crosses it.  With the divergence C of the normals over the dimensions of the surface:
-  // hollow: on average that in the middle, n_w - C r/2 along the surface.
-  // convex: that of a sphere of the radius 1/C + depth, (n_w - C s r)/(1 + C depth), s = part of the way where its length is 1.
-  // On cubic lattices the sum is the area itself: for this, V_w is the reference volume times flux_factor().
+  // Return the heat per time that the fluid particle f gets from the surface by a wall particle w, r = x_w - x_f.  The sum
+  // of 2 V_f V_w F |r.n| over all pairs is the area of the surface, if n is the normal where the pair crosses the surface:
+  // the integral of F z^2 over one half of space is 1/2.  C = divergence of the normals over the dimensions of the surface.
+  // hollow, C < 0: n is on average that in the middle, n_w - C r/2 along the surface.
+  // convex: n is that of a sphere of radius 1/C + depth, (n_w - C s r)/(1 + C depth), of length 1 at the part s of the way.
+  // V_w is the reference volume times flux_factor(): then the sum is exact on cubic lattices.
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
                                    const Surface &surface)
@@ -411,17 +405,17 @@ namespace SPHDissipation {
     return 2.0 * flux * vol_f * surface.flux_volume * slope * seen;
   }
 
-  // there the volumes V = 1/c are too small by the one sum, the number of pairs by the other
+  // Return the factor by which the sum of surface_heat() over a cubic lattice is too small: the volumes V = 1/c are too
+  // small by the one sum, the sum of F z^2 differs from its integral by the other
 
   inline double flux_factor(const LatticeSums &sums)
   {
     return sums.zeroth / sums.second;
   }
 
-  // Values of particle i of a wall with this acceleration in pass 2, extrapolated from the fluid,
-  // sum.weight > 0.  The wall is as dense as the fluid, each relative to its reference density: so a particle of the wall has the
-  // volume that one of the fluid would have in its place, whatever the fluids around it are.  A wall does not pull on a fluid
-  // without tension.
+  // Set the values of wall particle i, with this acceleration, in pass 2, extrapolated from the fluid; sum.weight > 0.  The
+  // ratio of density and reference density is that of the fluid: so the particle has the volume that a fluid particle would
+  // have in its place, with any fluids around.  A wall does not pull on a fluid without tension.
 
   template <class Rows>    // ParticleRows
   SPH_FUNCTION void extend_fluid(const Rows &rows, int i, const WallCondition &condition,
@@ -436,8 +430,8 @@ namespace SPHDissipation {
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }
 
-  // What velocity and spin (nullptr: there is none) of a boundary particle in pass 2 exceed its own velocity u and the spin of
-  // its rigid body by
+  // Set the excess of a boundary particle: its velocity and spin (nullptr: none) in pass 2 less its own velocity u and the
+  // spin of its rigid body
 
   SPH_FUNCTION void set_excess(Excess &excess, const Particle &particle, const double *u,
                                const double *spin, const Surface &surface)

@@ -16,9 +16,9 @@
 //
 //   all_words(a)        a in every lane
 //   xor3(a, b, c)       a ^ b ^ c
-//   product(a, b)       of the lower 32 bits of each
-//   shifted<N>(a)       to the right by N bits
-//   masked(a, bits, b)  the bits of a that are set in bits, which is one number, ^ b
+//   product(a, b)       product of the lower 32 bits of each
+//   shifted<N>(a)       a shifted to the right by N bits
+//   masked(a, bits, b)  (a & bits) ^ b; bits = one number for all lanes
 //   middle(a, bits)     the bits of a that are set in bits as a number, + 1/2
 //   pattern(a)          the bits of a number; value(a): the number that has these bits
 //   words(a)            whole numbers 0 <= a < 2^52
@@ -104,7 +104,7 @@ namespace SPHDissipation {
 
 #endif
 
-    // the same for all instruction sets
+    // One version for all instruction sets
 
     SPH_INLINE Words pattern(Vec a)
     {
@@ -120,7 +120,7 @@ namespace SPHDissipation {
       return number;
     }
 
-    // a as the lower bits of a number between 2^52 and 2^53, whose upper ones are
+    // Upper bits of the numbers from 2^52 to 2^53, whose lower bits are a whole number; 2^52
 
     constexpr std::uint64_t OFFSET_PATTERN = 0x4330000000000000;
     constexpr double OFFSET = 4503599627370496.0;
