@@ -342,7 +342,7 @@ class Plan:
         args = self.args
         noise = "" if args.temperature is None else (" limit yes" if self.zeta < 0.0 else "") + f" temp {args.temperature:g} 4711"
         kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
-        shift = "" if args.temperature is not None or self.wave else f" shift {args.velocity:g}    # no shift with a free surface"
+        shift = "" if args.temperature is not None or self.wave else " shift auto    # with a free surface: no density rho0"
         viscous = f" {self.viscous}" if self.viscous else ""
         pressure = f" pb {self.rho * self.c0**2:.6g}" if self.wave else ""
         relax, room = ("", "") if not self.fluid.relax else (relax_words(self.fluid), f" relax {len(self.fluid.relax)}")

@@ -817,7 +817,7 @@ void FixSPHBulk::post_integrate()
 
 void FixSPHBulk::shift_particles()
 {
-  if (first_instance && fluid && fluid->shift->due()) fluid->shift_particles(time_step().keep);
+  if (first_instance && fluid) fluid->shift_in_step(time_step().keep);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -508,6 +508,14 @@ void Fluid::set_boundary()
   boundary->run(neighbors());
 }
 
+void Fluid::shift_in_step(double keep)
+{
+  if (shift->movers.empty()) return;
+  int &age = model->shift_age;
+  if (age == 0) shift_particles(keep);
+  age = (age + 1) % STEPS_OF_SHIFT;
+}
+
 void Fluid::shift_particles(double keep)
 {
   shift->run(keep);

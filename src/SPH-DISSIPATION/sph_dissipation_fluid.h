@@ -124,7 +124,8 @@ namespace SPHDissipation {
     int diffusion_interval() const;
     bool diffusion_is_new() const;
     void begin_step(double dt);    // advances the states
-    // In the middle of a step, see ShiftStage::run()
+    // In the middle of each step: shift the particles every few steps, see ShiftStage::run()
+    void shift_in_step(double keep);
     virtual void shift_particles(double keep);
 
     // Return the potential energy of the last forces, on this rank; add it to those of particles (nullptr: to none)

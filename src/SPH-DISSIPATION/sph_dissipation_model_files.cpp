@@ -30,7 +30,7 @@ using namespace SPHDissipation;
 // coefficients above.  Raise VERSION with any other change of the stored numbers.  Older versions begin with a number below
 // 10.
 
-static constexpr int VERSION = 1007;
+static constexpr int VERSION = 1008;
 
 int FluidModel::format_number() const
 {
@@ -126,6 +126,7 @@ void FluidModel::write_settings(FILE *fp) const
   put(fp, static_cast<double>(clock.step));
   put(fp, static_cast<double>(clock.offset));
   put(fp, diffusion_age);
+  put(fp, shift_age);
   put(fp, static_cast<int>(hash_of_forces));
   put(fp, static_cast<int>(hash_of_forces >> 32));
 }
@@ -169,6 +170,7 @@ void FluidModel::read_settings(FILE *fp)
   clock.step = static_cast<bigint>(read.number("step of the noise"));
   clock.offset = static_cast<bigint>(read.number("offset of the noise"));
   diffusion_age = read.integer("age of the diffusion", 0, MAXSMALLINT);
+  shift_age = read.integer("age of the shift", 0, MAXSMALLINT);
   constexpr int LOWEST = std::numeric_limits<int>::min(), HIGHEST = std::numeric_limits<int>::max();
   hash_of_forces = static_cast<std::uint32_t>(read.integer("hash", LOWEST, HIGHEST));
   hash_of_forces |= static_cast<std::uint64_t>(read.integer("hash", LOWEST, HIGHEST)) << 32;

@@ -24,6 +24,7 @@
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_shift_terms.h"
+#include "update.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,7 +19,6 @@
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_shift_terms.h"
 #include "sph_dissipation_threads.h"
-#include "update.h"
 
 #include <functional>
 #include <vector>
@@ -239,7 +238,6 @@ namespace SPHDissipation {
 
     std::vector<ShiftMover> movers;    // by the fixes, from their init(), in every run
 
-    bool due() const { return !movers.empty() && (update->ntimestep - 1) % STEPS_OF_SHIFT == 0; }
     ShiftLaw law() const;
 
     // Change positions, velocities, extrapolated velocities, and internal energies of owned particles.  keep: as of TimeStep

@@ -150,7 +150,7 @@ FEATURES = {
     "shift": Feature(Lines(integrator=("shift 0.5[v]",)), refused={"noise": "shift"}),
     "square": Feature(Lines(pair=("shear mg/fr2",))),
     "spin": Feature(Lines(style="sph/micropolar", spin="0.2[pt] 0.05[ptll] -0.05[ptll]")),
-    "surface": Feature(Lines(pair=("density continuity",)), refused={"noise": "temp", "warm": "temp", "gas": "no free surface", "shift": "shift",
+    "surface": Feature(Lines(pair=("density continuity",)), refused={"noise": "temp", "warm": "temp", "gas": "no free surface",
                                                                       "heat": "tension yes", "rerun": "rerun"}),
     "drag": Feature(Lines(keywords=("drag 0.3[pt/ll] 0.2[v] -0.1[v] 0",), force=("c_drag[{k}]",),
                           fixes=("compute state fluid property/atom vol vestx vesty", "variable dragx atom -0.3[pt/ll]*c_state[1]*(c_state[2]-0.2[v])",

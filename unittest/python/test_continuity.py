@@ -518,7 +518,6 @@ def test_settings_that_are_refused(lammps, options, message):
 
 @pytest.mark.parametrize("lines, message", [
     ("unfix FLUID\nfix FLUID all sph/bulk density rho0\nrun 0\n", "density rho0 cannot be used with density continuity"),
-    ("unfix FLUID\nfix FLUID all sph/bulk shift 1\nrun 0\n", "shift cannot be used with density continuity"),
     ("pair_coeff * * 1 10 0.1 0.3 3 cv 1 gruneisen 1 0\nrun 0\n", "requires tension yes"),
     ("set atom 3 sph/rho -1\nrun 0\n", "density must be >= 0, which that of particle 3 is not"),
     ("compute G all property/atom surface\ndump D all custom 1 a.dump id c_G\npair_style sph/bulk\npair_coeff * * 1 10 0.1 0.3 3\nrun 0\n",

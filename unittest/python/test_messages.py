@@ -100,7 +100,6 @@ OPEN, WALL, FLUID, PAIR, NOISE, RHEOLOGY = "fix_sph_open", "fix_sph_wall", "fix_
 # beginning of a message: (page, words that a sentence there has), ...; a list of words: each has a sentence with the others
 REFUSALS = {
     "Fix {} shift cannot be used with temp": [(FLUID, "*shift*", "*temp*"), (NOISE, "*temp*", "*shift*")],
-    "Fix {} shift cannot be used with density continuity": [(FLUID, "*shift*", "*density continuity*"), (PAIR, "*density continuity*", "*shift*")],
     "Fix {} density rho0 cannot be used with density continuity": [(FLUID, "*density rho0*", "*density continuity*"), (PAIR, "*density continuity*", "*density rho0*")],
     "Fix {} viscous rkl2 or implicit cannot be used in a minimization": [(FLUID, "*viscous rkl2*", "*implicit*", "minimization")],
     "Fix {} viscous rkl2, or implicit with scheme sdirk2 or euler, cannot": [(FLUID, "They cannot", "fix dt/reset")],

@@ -1,4 +1,5 @@
-"""Keyword shift of fix sph/bulk and fix sph/micropolar: displacements against a sum of its own, momentum, ranks, bad input."""
+"""Keyword shift of fix sph/bulk and fix sph/micropolar: displacements and impulses against sums of its own, what is conserved, ranks, bad
+input."""
 
 import re
 
@@ -6,12 +7,12 @@ import numpy as np
 import pytest
 
 import test_wall as walls
-from helpers import INTEGRATE, SUPPORT, disordered, fluid, header, lattice, relative
+from helpers import INTEGRATE, SUPPORT, disordered, drop, fluid, header, lattice, relative
 from test_micropolar import spins, write
 
 BULK, MICRO = "sph/bulk", "sph/micropolar"
-STEP = 0.002
-SPEED = 100.0  # much larger than that of the flow: one step has to show the displacement to twelve digits
+STEP, STEPS = 0.002, 8  # time step; steps from one shift to the next one
+SPEED = 12.0  # much larger than that of the flow: one shift has to show the displacement to twelve digits
 DUMP = "dump D all custom 1 out.dump id xu yu zu vx vy vz\ndump_modify D sort id format float %.17g\n"
 
 # ---------------------------------------------------------------------------------------------
@@ -45,9 +46,21 @@ def norm(kernel, dim):
     return 1.0 / (surface * (np.tile(weights / 12.0, 6) * q ** (dim - 1) * shape(kernel, q)[0]).sum())
 
 
-def shifting(particles, support, kernel, speed, vol=None, solid=None):
-    """Shifting velocity before and after its limit; vol of a fluid without walls follows from the number density."""
-    dim, length = particles.dim, particles.hi - particles.lo
+def sums(kernel, dim):
+    """Integral of F over space times the square of the support radius, by quadrature."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+    q = (np.arange(6)[:, None] + 0.5 * (nodes + 1.0)).ravel() / 6.0
+    surface = {1: 2.0, 2: 2 * np.pi, 3: 4 * np.pi}[dim]
+    return -norm(kernel, dim) * surface * (np.tile(weights / 12.0, 6) * q ** (dim - 2) * shape(kernel, q)[1]).sum()
+
+
+def shifting(particles, support, kernel, speed, middle, vol=None, still=None, surfaces=False):
+    """Displacements, changes of the velocities by impulses, and which particles are at the limit of the displacement.
+
+    middle: velocities after the first half of the kick; vol of a fluid without walls follows from the number density; still: particles
+    that are not shifted; speed: a number, or "auto"."""
+    dim, length, m = particles.dim, particles.hi - particles.lo, particles.mass
+    moves = np.full(len(m), True) if still is None else ~still
     r = particles.x[:, None] - particles.x
     r -= length * np.round(r / length)
     dist = np.linalg.norm(r, axis=2)
@@ -55,19 +68,44 @@ def shifting(particles, support, kernel, speed, vol=None, solid=None):
     w, slope = shape(kernel, np.minimum(dist / support, 1.0))
     if vol is None:
         vol = 1.0 / (scale * w).sum(axis=1)
-    contact = shape(kernel, vol ** (1.0 / dim) / support)[0]
+    contact = shape(kernel, np.minimum(vol ** (1.0 / dim) / support, 0.9))[0]
     F = -scale / support * slope / np.where(dist > 0.0, dist, 1.0)
-    push = vol * F * (1.0 + 0.2 * (w / contact[:, None]) ** 4)
-    np.fill_diagonal(push, 0.0)
-    free = speed * support * np.einsum("ij,ijd->id", push, r)
-    if solid is not None:
-        free[solid] = 0.0
-    size = np.linalg.norm(free, axis=1)[:, None]
-    return free, free * np.minimum(1.0, 0.5 * speed / np.where(size > 0.0, size, 1.0))
+    np.fill_diagonal(F, 0.0)
+    gradient = np.einsum("ij,ijd->id", vol * F * (1.0 + 0.2 * (w / contact[:, None]) ** 4), r)
+    time = STEPS * STEP
+    if speed == "auto":
+        slopes = np.einsum("ij,ija,ijb->iab", vol * F, particles.v[:, None] - particles.v, r)
+        strain = 0.5 * (slopes + slopes.transpose(0, 2, 1))
+        speed = 5.0 * support * np.sqrt(2.0 * (strain ** 2).sum(axis=(1, 2)))
+    way = np.minimum(time * speed, 0.1 * support) * np.ones(len(m))
+    size = support * np.linalg.norm(gradient, axis=1)
+    delta = (way * support * np.minimum(1.0, 0.5 / np.where(size > 0.0, size, 1.0)))[:, None] * gradient
+    if surfaces:
+        tensor = np.einsum("ij,ija,ijb->iab", vol * F, r, r)[:, :dim, :dim]
+        delta *= np.clip((np.linalg.eigvalsh(tensor)[:, 0] - 0.6) / 0.3, 0.0, 1.0)[:, None]
+    share = np.where(np.outer(moves, moves), F * np.outer(vol, vol) * np.minimum(m / m[:, None], m[:, None] / m), 0.0)
+    total = share.sum(axis=1)
+    stays = ~(moves & (total > 0.25 * vol * sums(kernel, dim) / support ** 2))
+    delta[stays] = 0.0
+    q = np.where(stays[:, None], 0.0, m[:, None] * delta / np.where(total > 0.0, total, 1.0)[:, None])
+    moved = delta - share @ q / m[:, None]
+    moved[~moves] = 0.0
+    u = middle[:, None] - middle
+    lost = np.cross(q, np.einsum("ij,ijd->id", share, u))
+    apart = r + moved[:, None] - moved
+    spin = np.zeros_like(lost)
+    if dim > 1:
+        inertia = np.einsum("ij,ijab->iab", share, np.einsum("ijd,ijd,ab->ijab", apart, apart, np.eye(3)) - np.einsum(
+            "ija,ijb->ijab", apart, apart))
+        some = np.abs(lost).max(axis=1) > 0.0
+        spin[some] = -np.linalg.solve(inertia[some], lost[some][:, :, None])[:, :, 0]
+    impulse = np.einsum("ij,ijd->id", share, np.cross(spin[:, None] + spin, apart))
+    return moved, impulse / m[:, None], moves & ~stays & (size > 0.5)
 
 
-def one_step(lammps, text, speed=SPEED, keywords="", ranks=1):
-    """Positions after one step with the keyword minus those without; text has the fix command without keywords."""
+def one_step(lammps, text, speed=SPEED, keywords="", ranks=1, start=None):
+    """Positions after one step with the keyword minus those without, and the velocities in the middle of the step; text has the fix
+    command without keywords."""
     places = []
     for extra in ("", f" shift {speed}"):
         line = re.search(r"^fix FLUID .*$", text, re.MULTILINE)[0]
@@ -75,16 +113,19 @@ def one_step(lammps, text, speed=SPEED, keywords="", ranks=1):
         places.append(lammps.frame("out.dump"))
     assert places[1].step == 1
     assert (places[0]["v"][0] != places[1]["v"][0]).any()  # the second half of the step has other forces
-    return places[1]["x"] - places[0]["x"]
+    return places[1]["x"] - places[0]["x"], (places[0]["x"] - lammps.frames("out.dump")[0]["x"]) / STEP
 
 
-def assert_displaced(moved, free, limited, speed=SPEED):
-    beyond = np.linalg.norm(free, axis=1) > 0.5 * speed
-    difference = relative(moved - STEP * limited, STEP * limited)
-    print(f"largest difference {difference:.1e}, {beyond.sum()} of {len(beyond)} particles at the limit, "
-          f"fastest {np.linalg.norm(free, axis=1).max() / speed:.2f}")
+def assert_displaced(lammps, text, particles, support, kernel="wendland/c2", speed=SPEED, ranks=1, keywords="", **more):
+    moved, middle = one_step(lammps, text, speed, keywords, ranks)
+    displacement, kick, limited = shifting(particles, support, kernel, speed, middle, **more)
+    wanted = displacement + STEP * kick
+    difference = relative(moved - wanted, wanted)
+    print(f"largest difference {difference:.1e}, {limited.sum()} of {len(limited)} particles at the limit, largest displacement "
+          f"{np.abs(displacement).max():.1e}, by impulses {STEP * np.abs(kick).max():.1e}")
     assert difference < 1e-12
-    return beyond
+    assert particles.dim == 1 or STEP * np.abs(kick).max() > 1e-9 * np.abs(displacement).max()
+    return moved, limited
 
 
 @pytest.mark.parametrize("kernel, jitter", [*((kernel, 0.1) for kernel in KERNELS), ("wendland/c2", 0.4)])
@@ -94,10 +135,33 @@ def test_displacement_of_one_step(lammps, dim, cells, support, kernel, jitter):
     particles.write(lammps.path("box.data"))
     text = (header(dim) + "read_data box.data\n" + fluid(dim, f"kernel {kernel}", support=support) + INTEGRATE
             + f"timestep {STEP}\n")
-    free, limited = shifting(particles, support, kernel, SPEED)
-    beyond = assert_displaced(one_step(lammps, text), free, limited)
-    assert not beyond.all()
-    assert beyond.any() or (dim == 1 or jitter < 0.2)
+    _, limited = assert_displaced(lammps, text, particles, support, kernel)
+    assert not limited.all()
+    assert limited.any() or (dim == 1 or jitter < 0.2)
+
+
+@pytest.mark.parametrize("dim", [1, 2, 3])
+@pytest.mark.parametrize("speed", ["auto", 1e4])
+def test_speed(lammps, dim, speed):
+    """That of the local rate of shear; and one at which the displacement is cut off."""
+    particles = disordered(dim, {1: 30, 2: 14, 3: 7}[dim], jitter=0.2, speed=1.0)
+    particles.write(lammps.path("box.data"))
+    text = header(dim) + "read_data box.data\n" + fluid(dim) + INTEGRATE + f"timestep {STEP}\n"
+    moved, _ = assert_displaced(lammps, text, particles, SUPPORT[dim], speed=speed)
+    if speed != "auto":
+        assert np.abs(moved).max() < 0.1 * SUPPORT[dim]
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+def test_displacement_near_a_free_surface(lammps, dim):
+    """With density continuity: nothing at the surface, all inside."""
+    particles = drop(dim, 9.0 if dim == 2 else 5.0, speed=0.1)
+    text = (header(dim, boundary="f f f" if dim == 3 else "f f p") + "read_data box.data\n" + fluid(dim, "density continuity") + INTEGRATE
+            + f"timestep {STEP}\n")
+    particles.write(lammps.path("box.data"))
+    moved, _ = assert_displaced(lammps, text, particles, SUPPORT[dim], speed=1.0, vol=particles.mass, surfaces=True)
+    outside = np.linalg.norm(particles.x, axis=1) > np.linalg.norm(particles.x, axis=1).max() - 0.5
+    assert np.abs(moved[outside]).max() < 0.2 * np.abs(moved).max()
 
 
 @pytest.mark.parametrize("dim, style, name, kernel, ranks, newton", [
@@ -110,9 +174,7 @@ def test_displacement_next_to_walls(lammps, dim, style, name, kernel, ranks, new
     model, omega, want = walls.expected(dim, style, name, dict(kernel=kernel))
     walls.save(lammps, particles, model, omega)
     text = walls.start(model, owner, walls.WALLS[dim][name], newton=newton, step=STEP)
-    moved = one_step(lammps, text, ranks=ranks)
-    free, limited = shifting(particles, model.support, kernel, SPEED, want["vol"], owner >= 0)
-    assert_displaced(moved, free, limited)
+    moved, _ = assert_displaced(lammps, text, particles, model.support, kernel, ranks=ranks, vol=want["vol"], still=owner >= 0)
     assert (moved[owner >= 0] == 0.0).all()
 
 
@@ -126,15 +188,16 @@ def test_shift_and_inertia(lammps, dim, order):
     support = SUPPORT[dim]
     text = (header(dim, style=MICRO) + "read_data box.data\n" + walls.pair_commands(walls.one_fluid(dim, MICRO))
             + f"fix FLUID all {MICRO}\ntimestep {STEP}\ncompute I all property/atom inertia vol\n")
-    places = []
+    places, first = [], None
     for words in (keywords[:1], keywords[::(-1 if order else 1)]):
         lammps(text.replace(MICRO + "\ntimestep", f"{MICRO} {' '.join(words)}\ntimestep")
                + DUMP.replace("vx", "c_I[*] vx") + "run 1\n")
-        places.append(lammps.frame("out.dump"))
+        places.append(lammps.frame("out.dump")["x"])
         first = lammps.frames("out.dump")[0]
         np.testing.assert_allclose(first["c_I[1]"], 0.3 * first["c_I[2]"] ** (2 / dim) + 0.1, rtol=1e-14)
-    free, limited = shifting(particles, support, "wendland/c2", SPEED)
-    assert_displaced(places[1]["x"] - places[0]["x"], free, limited)
+    displacement, kick, _ = shifting(particles, support, "wendland/c2", SPEED, (places[0] - first["x"]) / STEP)
+    wanted = displacement + STEP * kick
+    assert relative(places[1] - places[0] - wanted, wanted) < 1e-12
 
 
 def test_only_the_group_is_shifted(lammps):
@@ -143,9 +206,8 @@ def test_only_the_group_is_shifted(lammps):
     particles.write(lammps.path("box.data"))
     text = (header(2) + "read_data box.data\n" + fluid(2) + f"group A type 1\ngroup B type 2\ntimestep {STEP}\n"
             "fix OTHER B sph/bulk\nfix FLUID A sph/bulk\n")
-    free, limited = shifting(particles, SUPPORT[2], "wendland/c2", SPEED)
-    free[particles.type == 2] = limited[particles.type == 2] = 0.0
-    assert_displaced(one_step(lammps, text), free, limited)
+    moved, _ = assert_displaced(lammps, text, particles, SUPPORT[2], still=particles.type == 2)
+    assert (moved[particles.type == 2] == 0.0).all()
 
 
 def test_hybrid_overlay(lammps):
@@ -154,7 +216,7 @@ def test_hybrid_overlay(lammps):
     pair = fluid(2).replace("pair_style sph/bulk", "pair_style hybrid/overlay zero 3.0 sph/bulk").replace(
         "pair_coeff * *", "pair_coeff * * zero\npair_coeff * * sph/bulk")
     text = header(2) + "read_data box.data\n" + pair + INTEGRATE + f"timestep {STEP}\n"
-    assert_displaced(one_step(lammps, text), *shifting(particles, SUPPORT[2], "wendland/c2", SPEED))
+    assert_displaced(lammps, text, particles, SUPPORT[2])
 
 
 def test_zero_is_no_shifting(lammps):
@@ -173,7 +235,7 @@ def test_zero_is_no_shifting(lammps):
 
 @pytest.mark.parametrize("dim, cells, style, newton", [(2, 16, BULK, "on"), (2, 16, MICRO, "off"), (3, 7, BULK, "off")])
 def test_momentum(lammps, dim, cells, style, newton):
-    """The velocities are not touched: linear momentum stays to rounding errors."""
+    """Impulses are those of pairs: linear momentum stays to rounding errors."""
     particles = disordered(dim, cells)
     model = walls.one_fluid(dim, style)
     walls.save(lammps, particles, model, spins(particles) if style == MICRO else None)
@@ -186,6 +248,45 @@ def test_momentum(lammps, dim, cells, style, newton):
     print(f"drift of momentum {drift:.1e}, way of a particle {travelled:.2f}")
     assert drift < 1e-14
     assert travelled > 0.05
+
+
+@pytest.mark.parametrize("dim, style, pair, speed, steps", [
+    (2, BULK, "density continuity tension yes", "auto", 1000), (2, BULK, "density continuity volume mass", "0.5", 400),
+    (3, BULK, "density continuity tension yes shear mg/fr2", "auto", 200), (2, MICRO, "density continuity", "auto", 200),
+    pytest.param(2, BULK, "density continuity tension yes", "auto", 10000, marks=pytest.mark.long)])
+def test_free_drop(lammps, dim, style, pair, speed, steps):
+    """Momentum, center of mass, angular momentum, and the sum of kinetic and internal energy, which viscous implicit has exact."""
+    particles = drop(dim, 9.0 if dim == 2 else 5.0, speed=0.1)
+    particles.v[:, :dim] += [0.3, -0.2, 0.1][:dim]
+    model = walls.one_fluid(dim, style)
+    walls.save(lammps, particles, model, 0.1 * spins(particles) if style == MICRO else None)
+    bounds = "f f p" if dim == 2 else "f f f"
+    coefficients = walls.pair_commands(model).replace("pair_style " + style, f"pair_style {style} {pair}")
+    inertia = " inertia 0.3 0.1" if style == MICRO else ""
+    result = lammps(header(dim, style=style, boundary=bounds) + "read_data box.data\n" + coefficients + "change_box all "
+           + " ".join(f"{axis} final -60 60" for axis in "xyz"[:dim]) + f"\nfix FLUID all {style}{inertia} shift {speed} viscous implicit\n"
+           "timestep 0.01\ncompute E all sph/energy\ncompute S all property/atom esph" + (" inertia\n" if style == MICRO else "\n")
+           + "thermo_style custom step c_E\nthermo_modify format float %.17g\n" + f"thermo {steps}\n"
+           + DUMP.replace("custom 1", f"custom {steps}").replace("vx", ("c_S[2] omegax omegay omegaz " if style == MICRO else "") + "vx")
+           + f"run {steps}\n", timeout=300)
+    energy = result.thermo()[-1]["c_E"]
+    first, last = lammps.frames("out.dump")
+    m = particles.mass[:, None]
+    momentum, spread = [], []
+    for frame in (first, last):
+        turning = np.cross(frame["x"], m * frame["v"])
+        if style == MICRO:
+            turning = turning + m * frame["c_S[2]"][:, None] * np.column_stack([frame[f"omega{axis}"] for axis in "xyz"])
+        momentum.append([(m * frame["v"]).sum(axis=0), turning.sum(axis=0)])
+        spread.append([np.abs(m * frame["v"]).sum(), np.abs(turning).sum()])
+    drift = np.abs(np.subtract(*momentum)).max(axis=1) / spread[0]
+    way = (m * (last["x"] - first["x"])).sum(axis=0) - 0.01 * steps * momentum[0][0]
+    print(f"drift of momentum {drift[0]:.1e}, of angular momentum {drift[1]:.1e}, of the center of mass {np.abs(way).max() / m.sum():.1e}, "
+          f"of energy {energy[-1] / energy[0] - 1:.1e}")
+    assert (drift < 1e-12).all()
+    assert np.abs(way).max() < 1e-11 * m.sum()
+    assert abs(energy[-1] / energy[0] - 1) < 1e-12
+    assert np.linalg.norm(last["x"] - first["x"], axis=1).mean() > 0.01
 
 
 def trajectory(lammps, dim, style, ranks=1, newton="on", commands="run 100\n"):
@@ -310,6 +411,48 @@ def test_taylor_green_vortices(lammps):
     assert abs(shifted - 1.0) < 0.5 * abs(without - 1.0)
 
 
+MIXING = """
+units lj
+dimension 2
+boundary p p p
+atom_style sph/bulk
+lattice custom $({n}^2*2/sqrt(3)) a1 1 0 0 a2 0 1.7320508075688772 0 a3 0 0 1 basis 0 0 0 basis 0.5 0.5 0 origin 0.25 0.25 0
+region box block 0 {n} 0 {rows} -0.5 0.5
+create_box 1 box
+create_atoms 1 box
+variable spacing equal sqrt(vol/atoms)
+set group all mass $(v_spacing^2)
+variable kx equal 2*PI/lx
+variable ky equal 2*PI/ly
+variable nu equal 1.0/v_kx/{re}
+pair_style sph/bulk shear mg/fr2
+pair_coeff * * 1.0 15.0 ${{nu}} 0.0 $(3*v_spacing)
+neighbor $(0.9*v_spacing) bin
+fix 1 all sph/bulk density rho0 {keywords}
+timestep $(0.3*v_spacing/15)
+variable fx atom sin(v_kx*x)*cos(v_ky*y)
+variable fy atom -v_kx/v_ky*cos(v_kx*x)*sin(v_ky*y)
+velocity all set v_fx v_fy 0
+variable a atom v_fx*vx+v_fy*vy
+variable b atom v_fx*v_fx+v_fy*v_fy
+compute A all reduce sum v_a v_b
+variable ratio equal c_A[1]/c_A[2]*exp(v_nu*(v_kx^2+v_ky^2)*time)
+thermo_style custom step time v_ratio
+run $(ceil(6/v_kx/dt))
+"""
+
+
+@pytest.mark.parametrize("n, re, keywords, low, high", [
+    (48, 16, "shift auto", 0.99, 1.01), (48, 16, "", 0.70, 0.80), (48, 160, "shift auto", 0.98, 1.01),
+    pytest.param(96, 16, "shift auto", 0.995, 1.005, marks=pytest.mark.long),
+    pytest.param(96, 160, "shift auto", 0.99, 1.005, marks=pytest.mark.long)])
+def test_mixing_flow(lammps, n, re, keywords, low, high):
+    """Amplitude of Taylor-Green vortices at t = 6/(kU) over the exact one, support of three spacings, from a hexagonal lattice."""
+    table = lammps(MIXING.format(n=n, rows=n * 7 // 12, re=re, keywords=keywords), timeout=300).thermo()[-1]
+    print(f"amplitude over the exact one {table['v_ratio'][-1]:.4f}")
+    assert low < table["v_ratio"][-1] < high
+
+
 # ---------------------------------------------------------------------------------------------
 # bad input
 
@@ -345,7 +488,7 @@ def test_refused(lammps, style, keywords, expected_words):
 def test_refused_on_two_ranks(lammps):
     disordered(2, 8).write(lammps.path("box.data"))
     walls.refused(lammps, header(2) + "read_data box.data\n" + fluid(2) + "fix FLUID all sph/bulk shift -1\nrun 1\n",
-                  ["Fix sph/bulk shift must be >= 0, not -1"], 2)
+                  ["Fix sph/bulk shift must be auto or >= 0, not -1"], 2)
 
 
 def test_needs_the_pair_style(lammps):
