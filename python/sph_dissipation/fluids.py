@@ -194,14 +194,15 @@ def read(path):
 
 
 def find(name):
-    """Fluid of this name: of gases.sph, of fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]; KeyError with all names, ValueError
-    if there is no such air"""
+    """Fluid of this name in any case: of gases.sph, of fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]; KeyError with all names,
+    ValueError if there is no such air"""
     known = {**read(POTENTIALS / "fluids.sph"), **read(POTENTIALS / "gases.sph")}
-    if name in known:
-        return known[name]
-    if not name.startswith("air/"):
+    in_any_case = {one.lower(): fluid for one, fluid in known.items()}
+    if name.lower() in in_any_case:
+        return in_any_case[name.lower()]
+    if not name.lower().startswith("air/"):
         raise KeyError(" ".join(known))
-    return gas(air_of(name))
+    return gas(air_of(name.lower()))
 
 
 def air_of(name):

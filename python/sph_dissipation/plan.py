@@ -7,8 +7,8 @@
     ./sphd plan --fluid water --column 0.6 --tank 3.22                   # a column of water that falls into a tank: a dam break
     ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
 
-With --fluid, a name of potentials/gases.sph or fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]] (percent, K, Pa), all numbers are in
-SI units; else in the units of --units. The input is a periodic box, filled with a stream; the flow is to be put in its place. With
+With --fluid, a name of potentials/gases.sph or fluids.sph in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]] (percent, K, Pa), all
+numbers are in SI units; else in the units of --units. The input is a periodic box, filled with a stream; the flow is to be put in its place. With
 --wavelength, --frequency, or --c real it is filled with a standing wave of sound, as long as the box. What the choices are made by
 is in the manual, "Choosing numbers". With --column the input is a tank with a free surface, see "Free surfaces" there.
 """
@@ -533,7 +533,7 @@ def sound_speed(text):
 def arguments(argv):
     parser = argparse.ArgumentParser(prog="./sphd plan", description=__doc__.partition("\n")[0], epilog=__doc__.partition("\n\n")[2],
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--fluid", help="name in potentials/gases.sph or fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]")
+    parser.add_argument("--fluid", help="name in potentials/gases.sph or fluids.sph, in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]")
     parser.add_argument("--rho", type=positive, help="density")
     parser.add_argument("--mu", type=not_negative, help="shear viscosity")
     parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along)")

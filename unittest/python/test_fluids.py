@@ -57,7 +57,7 @@ def table(result):
 
 
 def test_the_file_has_the_fluids_that_the_manual_names():
-    assert set(SHIPPED) >= {"water", "methanol", "ethanol", "2-propanol", "toluene", "hexane", "mercury",
+    assert set(SHIPPED) >= {"water", "methanol", "ethanol", "2-propanol", "toluene", "benzene", "seawater", "hexane", "mercury",
                             "argon/gas", "argon/liquid", "air", "CO2", "N2O"}
     head = FLUIDS.read_text().splitlines()[0]
     assert re.match(r"# DATE: \d{4}-\d\d-\d\d UNITS: si CONTRIBUTOR: .+ CITATION: ", head)
@@ -272,6 +272,37 @@ def iso_9613(frequency, humidity, temperature, pressure):
 def decibels(fluid, frequency):
     """per meter, with heat conduction"""
     return 20 / math.log(10) * fluid.wave_number(frequency, fluid.conduction).imag
+
+
+def test_names_in_any_case():
+    for name in (*SHIPPED, *SHIPPED_GASES, "air/30/283.15/90e3"):
+        assert tool.find(name) == tool.find(name.upper()) == tool.find(name.lower())
+    names = [*SHIPPED, *SHIPPED_GASES]
+    assert len({name.lower() for name in names}) == len(set(names))
+    with pytest.raises(KeyError, match="water methanol"):
+        tool.find("Honey")
+
+
+def francois_garrison(frequency, temperature, salinity, acidity):
+    """Absorption of sound in sea water at the surface, dB/m: J. Acoust. Soc. Am. 72, 1879 (1982)."""
+    f, kelvin, c = frequency / 1e3, temperature + 273, 1412 + 3.21 * temperature + 1.19 * salinity
+    boric, sulfate = 2.8 * math.sqrt(salinity / 35) * 10 ** (4 - 1245 / kelvin), 8.17 * 10 ** (8 - 1990 / kelvin) / (1 + 1.8e-3 * (salinity - 35))
+    water = 3.964e-4 - 1.146e-5 * temperature + 1.45e-7 * temperature**2 - 6.5e-10 * temperature**3
+    relaxing = [8.86 / c * 10 ** (0.78 * acidity - 5) * boric / (f**2 + boric**2),
+                21.44 * salinity / c * (1 + 0.025 * temperature) * sulfate / (f**2 + sulfate**2)]
+    return f**2 * (sum(relaxing) + water) / 1e3
+
+
+def test_sound_in_sea_water():
+    """With the processes that the comment of its line names, at all frequencies; without them, at those for which kappa holds."""
+    sea = tool.find("seawater")
+    words = re.search(r"relax ([-\d.e ]+)$", FLUIDS.read_text(), re.MULTILINE)[1].split()
+    numbers = [float(word) for word in words]
+    relaxing = tool.Fluid(sea.rho, sea.c, sea.mu, sea.kappa, list(zip(numbers[::2], numbers[1::2])))
+    for frequency in (500, 5e3, 5e4, 5e5, 5e6, 5e7):
+        expected = francois_garrison(frequency, 25, 35, 8)
+        assert decibels(relaxing, frequency) == pytest.approx(expected, rel=0.01)
+        assert (decibels(sea, frequency) == pytest.approx(expected, rel=0.02)) == (frequency >= sea.valid[0])
 
 
 def test_humid_air():
