@@ -69,8 +69,8 @@ namespace SPHDissipation {
   // first sums of a particle over all its neighbors
 
   struct ShiftSum {
-    double gradient[3] = {};              // g
-    double share = 0.0;                   // A
+    double gradient[3] = {};               // g
+    double share = 0.0;                    // A
     double slopes[9] = {};                 // of the velocity, sum_j V_j F u r, by rows
     double tensor[MOST_OF_TENSOR] = {};    // sum_j V_j F r r, where surfaces matter
   };
@@ -97,10 +97,10 @@ namespace SPHDissipation {
 
   struct ShiftLaw {
     int dim;
-    double support;         // R
-    double time;            // t
-    double slope_integral;  // of F
-    bool surfaces;          // no particle is pushed out of a free surface
+    double support;           // R
+    double time;              // t
+    double slope_integral;    // of F
+    bool surfaces;            // no particle is pushed out of a free surface
   };
 
   // 1/shape at the distance of a neighbor on a lattice of particles of this volume
@@ -175,7 +175,8 @@ namespace SPHDissipation {
     const double speed = row.speed + row.per_rate * rate_of_shear(sum.slopes);
     const double wanted = law.support * sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     const double way = law.time * speed, most = MOST_OF_SUPPORT * law.support;
-    double scale = ((way < most) ? way : most) * law.support * ((wanted > 0.5) ? 0.5 / wanted : 1.0);
+    double scale =
+        ((way < most) ? way : most) * law.support * ((wanted > 0.5) ? 0.5 / wanted : 1.0);
     if (law.surfaces) scale *= part_at_surface(smallest_eigenvalue(law.dim, sum.tensor));
     for (int d = 0; d < 3; d++) {
       row.d[d] = scale * g[d];
@@ -209,7 +210,7 @@ namespace SPHDissipation {
     if (dim == 2) row.w[2] = -lost[2] / (t[0] + t[2]);
     if (dim < 3) return;
     const double trace = t[0] + t[3] + t[5];
-    const double inertia[MOST_OF_TENSOR] = {trace - t[0], -t[1],        -t[2],
+    const double inertia[MOST_OF_TENSOR] = {trace - t[0], -t[1], -t[2],
                                             trace - t[3], -t[4], trace - t[5]};
     double w[3];
     solve_tensor(3, inertia, lost, w);
@@ -234,8 +235,8 @@ namespace SPHDissipation {
 
   // Change what a particle has, which the first half of a step of length dt has moved already.  keep: as of TimeStep
 
-  SPH_FUNCTION void finish_shift(const ShiftRow &row, const ShiftReturn &sum, double dt, double keep,
-                                 double *x, double *v, double *vest, double &energy)
+  SPH_FUNCTION void finish_shift(const ShiftRow &row, const ShiftReturn &sum, double dt,
+                                 double keep, double *x, double *v, double *vest, double &energy)
   {
     double work = -sum.work;
     for (int d = 0; d < 3; d++) {

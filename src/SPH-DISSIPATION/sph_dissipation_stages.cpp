@@ -448,11 +448,8 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 ShiftLaw ShiftStage::law() const
 {
   const Parameters &par = engine.parameters();
-  return {par.dim,
-          par.support,
-          STEPS_OF_SHIFT * update->dt,
-          kernel_slope_integral(par.kernel, par.dim, par.support),
-          par.continuity};
+  return {par.dim, par.support, STEPS_OF_SHIFT * update->dt,
+          kernel_slope_integral(par.kernel, par.dim, par.support), par.continuity};
 }
 
 template <class Sum, class Add> const Sum *ShiftStage::sum_up(const Add &add)
@@ -485,22 +482,22 @@ void ShiftStage::run(double keep)
         if (atom->mask[i] & mover.groupbit) let_shift(mover, law.support, vol, row);
       for (int d = 0; d < 3; d++) row.v[d] = atom->v[i][d] - particle[i].u[d];
     });
-    const auto crowding = sum_up<ShiftSum>([&](int i, int j, bigint entry, ShiftSum &a,
-                                               ShiftSum &b) {
-      const Particle &p = particle[i], &q = particle[j];
-      double r[3], u[3], back[3], other[3];
-      MathExtra::sub3(p.x, q.x, r);
-      MathExtra::sub3(p.u, q.u, u);
-      MathExtra::sub3(q.x, p.x, back);
-      MathExtra::sub3(q.u, p.u, other);
-      const double slope = engine.slope(i, j, entry);
-      const double shape = kernel.shape(MathExtra::len3(r) / law.support);
-      const double share = shift_share(slope, rows[i], rows[j]);
-      const double push_i = concentration_push(q.vol, slope, shape, rows[i].contact);
-      const double push_j = concentration_push(p.vol, slope, shape, rows[j].contact);
-      add_to_shift(law, r, u, q.vol, slope, push_i, share, a);
-      add_to_shift(law, back, other, p.vol, slope, push_j, share, b);
-    });
+    const auto crowding =
+        sum_up<ShiftSum>([&](int i, int j, bigint entry, ShiftSum &a, ShiftSum &b) {
+          const Particle &p = particle[i], &q = particle[j];
+          double r[3], u[3], back[3], other[3];
+          MathExtra::sub3(p.x, q.x, r);
+          MathExtra::sub3(p.u, q.u, u);
+          MathExtra::sub3(q.x, p.x, back);
+          MathExtra::sub3(q.u, p.u, other);
+          const double slope = engine.slope(i, j, entry);
+          const double shape = kernel.shape(MathExtra::len3(r) / law.support);
+          const double share = shift_share(slope, rows[i], rows[j]);
+          const double push_i = concentration_push(q.vol, slope, shape, rows[i].contact);
+          const double push_j = concentration_push(p.vol, slope, shape, rows[j].contact);
+          add_to_shift(law, r, u, q.vol, slope, push_i, share, a);
+          add_to_shift(law, back, other, p.vol, slope, push_j, share, b);
+        });
     engine.for_each(nlocal, [&](int i) {
       set_shift(law, crowding[i], rows[i]);
     });
@@ -515,19 +512,19 @@ void ShiftStage::run(double keep)
     velocity_in_shift(rows[i], particle[i].u, v);
     velocity_in_shift(rows[j], particle[j].u, w);
   };
-  const auto exchanged = sum_up<ShiftExchange>([&](int i, int j, bigint entry, ShiftExchange &a,
-                                                   ShiftExchange &b) {
-    const double share = share_of(i, j, entry);
-    if (share == 0.0) return;
-    double v[3], w[3];
-    velocities(i, j, v, w);
-    for (int d = 0; d < 3; d++) {
-      a.moved[d] += share * rows[j].q[d];
-      b.moved[d] += share * rows[i].q[d];
-      a.slip[d] += share * (v[d] - w[d]);
-      b.slip[d] -= share * (v[d] - w[d]);
-    }
-  });
+  const auto exchanged =
+      sum_up<ShiftExchange>([&](int i, int j, bigint entry, ShiftExchange &a, ShiftExchange &b) {
+        const double share = share_of(i, j, entry);
+        if (share == 0.0) return;
+        double v[3], w[3];
+        velocities(i, j, v, w);
+        for (int d = 0; d < 3; d++) {
+          a.moved[d] += share * rows[j].q[d];
+          b.moved[d] += share * rows[i].q[d];
+          a.slip[d] += share * (v[d] - w[d]);
+          b.slip[d] -= share * (v[d] - w[d]);
+        }
+      });
   engine.for_each(nlocal, [&](int i) {
     set_displacement(exchanged[i], rows[i]);
   });
@@ -537,35 +534,35 @@ void ShiftStage::run(double keep)
     for (int d = 0; d < 3; d++)
       r[d] = particle[i].x[d] - particle[j].x[d] + (rows[i].d[d] - rows[j].d[d]);
   };
-  const auto tensors = sum_up<ShiftTensor>([&](int i, int j, bigint entry, ShiftTensor &a,
-                                               ShiftTensor &b) {
-    const double share = share_of(i, j, entry);
-    if (share == 0.0) return;
-    double r[3];
-    distance(i, j, r);
-    add_square(law.dim, share, r, a.a);
-    add_square(law.dim, share, r, b.a);
-  });
+  const auto tensors =
+      sum_up<ShiftTensor>([&](int i, int j, bigint entry, ShiftTensor &a, ShiftTensor &b) {
+        const double share = share_of(i, j, entry);
+        if (share == 0.0) return;
+        double r[3];
+        distance(i, j, r);
+        add_square(law.dim, share, r, a.a);
+        add_square(law.dim, share, r, b.a);
+      });
   engine.for_each(nlocal, [&](int i) {
     set_return(law.dim, tensors[i], rows[i]);
   });
   exchange.forward({field(rows.data(), rows[0].w, 3)});
 
-  const auto returned = sum_up<ShiftReturn>([&](int i, int j, bigint entry, ShiftReturn &a,
-                                                ShiftReturn &b) {
-    const double share = share_of(i, j, entry);
-    if (share == 0.0) return;
-    double r[3], v[3], w[3], push[3];
-    distance(i, j, r);
-    velocities(i, j, v, w);
-    const double work = impulse_of_pair(share, rows[i], rows[j], v, w, r, push);
-    for (int d = 0; d < 3; d++) {
-      a.impulse[d] += push[d];
-      b.impulse[d] -= push[d];
-    }
-    a.work += work;
-    b.work -= work;
-  });
+  const auto returned =
+      sum_up<ShiftReturn>([&](int i, int j, bigint entry, ShiftReturn &a, ShiftReturn &b) {
+        const double share = share_of(i, j, entry);
+        if (share == 0.0) return;
+        double r[3], v[3], w[3], push[3];
+        distance(i, j, r);
+        velocities(i, j, v, w);
+        const double work = impulse_of_pair(share, rows[i], rows[j], v, w, r, push);
+        for (int d = 0; d < 3; d++) {
+          a.impulse[d] += push[d];
+          b.impulse[d] -= push[d];
+        }
+        a.work += work;
+        b.work -= work;
+      });
   engine.for_each(nlocal, [&](int i) {
     if (rows[i].vol > 0.0)
       finish_shift(rows[i], returned[i], update->dt, keep, atom->x[i], atom->v[i], atom->vest[i],
