@@ -817,8 +817,8 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
   double of_flows = 0.0;
   for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes_of(flow[k], flow_rate[k]);
   return Fluid::memory_usage() + boundary_device->memory_usage() + of_flows +
-      bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of,
-               shift_row, shift_return, diffusion_row, impedance, data->heat);
+      bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, bound_of, shift_row,
+               shift_return, diffusion_row, impedance, data->heat);
 }
 
 /* ---------------------------------------------------------------------- */

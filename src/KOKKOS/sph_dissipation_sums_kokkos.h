@@ -253,8 +253,7 @@ namespace SPHDissipation {
       this->velocity(i, own);
       this->template for_partners<K>(i, [&](int j, double share, const double *r) {
         this->velocity(j, other);
-        total.work +=
-            impulse_of_pair(share, this->row[i], this->row[j], own, other, r, push);
+        total.work += impulse_of_pair(share, this->row[i], this->row[j], own, other, r, push);
         for (int d = 0; d < 3; d++) total.impulse[d] += push[d];
       });
       sum[i] = total;

@@ -123,7 +123,8 @@ namespace SPHDissipation {
     Settings choice;
     NoiseClock clock;
     int diffusion_age = 0;    // steps since the diffusion of volume was evaluated
-    int shift_age = 0;        // steps since the particles were shifted, 0 if they shift in the next step
+    int shift_age =
+        0;    // steps since the particles were shifted, 0 if they shift in the next step
     std::string simd =
         "auto";    // pair loops; not in restart files, which another machine may read
     TypeCoeff *coeffs = nullptr;    // by type, from 1

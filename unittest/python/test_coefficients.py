@@ -342,7 +342,7 @@ def test_restart_file_with_other_settings(lammps):
     data, _ = restart_file(lammps)
     first = struct.pack("<6i", 0, 0, 1, 1, 0, 0)
     formats = [struct.unpack("<i", before)[0] for before in re.findall(rb"(?s)(.{4})" + re.escape(first), data)]
-    form, = (one for one in formats if one % 65536 == 1007)  # the upper bits follow from the names of coefficients
+    form, = (one for one in formats if one % 65536 == 1008)  # the upper bits follow from the names of coefficients
     head = struct.pack("<i", form) + first
     assert data.count(head) == 1
     for new, words in {struct.pack("<7i", 0, 0, 1, 1, 0, 0, 1): "written by an older version of pair style sph/bulk",
