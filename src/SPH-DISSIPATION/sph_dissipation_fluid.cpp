@@ -513,7 +513,7 @@ void Fluid::shift_in_step(double keep)
   if (shift->movers.empty()) return;
   int &age = model->shift_age;
   if (age == 0) shift_particles(keep);
-  age = (age + 1) % STEPS_OF_SHIFT;
+  age = (age + 1 < shift->interval()) ? age + 1 : 0;
 }
 
 void Fluid::shift_particles(double keep)

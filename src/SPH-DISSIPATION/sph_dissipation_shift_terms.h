@@ -35,8 +35,6 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  constexpr int STEPS_OF_SHIFT = 8;    // from one shift to the next one
-
   // A particle in a shift; velocities are those after the first half of the kick
 
   struct ShiftRow {

@@ -445,10 +445,24 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 
 /* ---------------------------------------------------------------------- */
 
+/* ----------------------------------------------------------------------
+   At most the time in which sound crosses the support radius
+------------------------------------------------------------------------- */
+
+int ShiftStage::interval() const
+{
+  constexpr int MOST = 8;
+  const Parameters &par = engine.parameters();
+  double fastest = 0.0;
+  for (int i = 1; i < par.ntypes_1; i++) fastest = std::max(fastest, par.type[i].eos.c0);
+  const double way = fastest * update->dt;
+  return (MOST * way <= par.support) ? MOST : std::max(1, static_cast<int>(par.support / way));
+}
+
 ShiftLaw ShiftStage::law() const
 {
   const Parameters &par = engine.parameters();
-  return {par.dim, par.support, STEPS_OF_SHIFT * update->dt,
+  return {par.dim, par.support, interval() * update->dt,
           kernel_slope_integral(par.kernel, par.dim, par.support), par.continuity};
 }
 

@@ -238,6 +238,7 @@ namespace SPHDissipation {
 
     std::vector<ShiftMover> movers;    // by the fixes, from their init(), in every run
 
+    int interval() const;    // steps from one shift to the next one
     ShiftLaw law() const;
 
     // Change positions, velocities, extrapolated velocities, and internal energies of owned particles.  keep: as of TimeStep
