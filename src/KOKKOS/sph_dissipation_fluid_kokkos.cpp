@@ -606,7 +606,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::shift_particles(double
   const auto vest = avec.k_vest.template view<DeviceType>();
   const auto esph = avec.k_esph.template view<DeviceType>();
   const auto sums = shift_return;
-  const double dt = update->dt;
+  const double dt = update->dt, mvv2e = force->mvv2e;
   for_each<DeviceType>(
       "sph:shift", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (shifting.row[i].vol == 0.0) return;
@@ -616,7 +616,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::shift_particles(double
           to[1][d] = v(i, d);
           to[2][d] = vest(i, d);
         }
-        finish_shift(shifting.row[i], sums(i), dt, keep, to[0], to[1], to[2], esph(i));
+        finish_shift(shifting.row[i], sums(i), dt, keep, mvv2e, to[0], to[1], to[2], esph(i));
         for (int d = 0; d < 3; d++) {
           x(i, d) = to[0][d];
           v(i, d) = to[1][d];

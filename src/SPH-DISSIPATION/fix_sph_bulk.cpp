@@ -689,7 +689,8 @@ void FixSPHBulk::check_inertia() const
 
 TimeStep FixSPHBulk::time_step() const
 {
-  return {dtv, dtf, remap_v_flag ? 0.0 : 1.0, extrapolation, balanced};
+  const bool jumps = fluid && fluid->has_shifted() && !exact;
+  return {dtv, dtf, remap_v_flag ? 0.0 : 1.0, extrapolation, jumps, balanced};
 }
 
 VolumeStep FixSPHBulk::volume_step() const

@@ -510,9 +510,10 @@ void Fluid::set_boundary()
 
 void Fluid::shift_in_step(double keep)
 {
+  shifted = !shift->movers.empty() && model->shift_age == 0;
   if (shift->movers.empty()) return;
   int &age = model->shift_age;
-  if (age == 0) shift_particles(keep);
+  if (shifted) shift_particles(keep);
   age = (age + 1 < shift->interval()) ? age + 1 : 0;
 }
 

@@ -126,6 +126,7 @@ namespace SPHDissipation {
     void begin_step(double dt);    // advances the states
     // In the middle of each step: shift the particles every few steps, see ShiftStage::run()
     void shift_in_step(double keep);
+    bool has_shifted() const { return shifted; }    // in this step
     virtual void shift_particles(double keep);
 
     // Return the potential energy of the last forces, on this rank; add it to those of particles (nullptr: to none)
@@ -245,6 +246,7 @@ namespace SPHDissipation {
     bool checks_expansion() const;
 
    private:
+    bool shifted = false;      // by shift_in_step(), in this step
     bool set_up = false;       // init() has run since the last pair_style or pair_coeff
     bool announced = false;    // the table in the log has the present coefficients
     bool continued =

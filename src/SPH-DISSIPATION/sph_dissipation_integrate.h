@@ -25,6 +25,7 @@ namespace SPHDissipation {
     double dtv, dtf;
     double keep;             // 1; or 0: the extrapolated velocity is the increment alone
     double extrapolation;    // increments of half a step by which vest goes beyond the middle
+    bool shifted;            // particles were shifted in this step: their forces jump
     bool balanced;           // temp energy: internal energies get half of the rate at each end
 
     // Begin or end the step of particle i, kick it only, or set its extrapolated quantities as without forces.
@@ -52,7 +53,25 @@ namespace SPHDissipation {
     template <class Particles> SPH_FUNCTION void end(const Particles &p, int i) const
     {
       end_energy(p.desph(i), p.desph_before(i), p.esph(i));
+      if (shifted) {
+        const double heat = heat_of_jump(p, i);
+        p.esph(i) -= heat;
+        p.desph_before(i) -= heat;
+      }
       kick(p, i);
+    }
+
+    // Kinetic and internal energy gain dt^2/(4m) (df)^2 in a step in which the force on a particle changes by df: of second
+    // order in smooth motion, and of first order where the force jumps.  The extrapolated velocity has the force before
+
+    template <class Particles> SPH_FUNCTION double heat_of_jump(const Particles &p, int i) const
+    {
+      double sum = 0.0;
+      for (int d = 0; d < 3; d++) {
+        const double jump = dtf / p.rmass(i) * p.f(i, d) - (p.vest(i, d) - p.v(i, d));
+        sum += jump * jump;
+      }
+      return 0.5 * dtv / dtf * p.rmass(i) * sum;
     }
 
     template <class Particles> SPH_FUNCTION void kick(const Particles &p, int i) const

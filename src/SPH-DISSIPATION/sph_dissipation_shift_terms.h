@@ -231,10 +231,12 @@ namespace SPHDissipation {
     return work;
   }
 
-  // Change what a particle has, which the first half of a step of length dt has moved already.  keep: as of TimeStep
+  // Change what a particle has, which the first half of a step of length dt has moved already.  keep: as of TimeStep; mvv2e
+  // turns mass * velocity^2 into an energy
 
   SPH_FUNCTION void finish_shift(const ShiftRow &row, const ShiftReturn &sum, double dt,
-                                 double keep, double *x, double *v, double *vest, double &energy)
+                                 double keep, double mvv2e, double *x, double *v, double *vest,
+                                 double &energy)
   {
     double work = -sum.work;
     for (int d = 0; d < 3; d++) {
@@ -244,7 +246,7 @@ namespace SPHDissipation {
       v[d] += dv;
       vest[d] += keep * dv;
     }
-    energy -= work;
+    energy -= mvv2e * work;
   }
 
 }    // namespace SPHDissipation

@@ -579,8 +579,8 @@ void ShiftStage::run(double keep)
       });
   engine.for_each(nlocal, [&](int i) {
     if (rows[i].vol > 0.0)
-      finish_shift(rows[i], returned[i], update->dt, keep, atom->x[i], atom->v[i], atom->vest[i],
-                   atom->esph[i]);
+      finish_shift(rows[i], returned[i], update->dt, keep, force->mvv2e, atom->x[i], atom->v[i],
+                   atom->vest[i], atom->esph[i]);
   });
 }
 
