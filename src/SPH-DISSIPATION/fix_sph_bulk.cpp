@@ -689,8 +689,7 @@ void FixSPHBulk::check_inertia() const
 
 TimeStep FixSPHBulk::time_step() const
 {
-  const bool jumps = fluid && fluid->has_shifted() && !exact;
-  return {dtv, dtf, remap_v_flag ? 0.0 : 1.0, extrapolation, jumps, balanced};
+  return {dtv, dtf, remap_v_flag ? 0.0 : 1.0, extrapolation, forces_jump, balanced};
 }
 
 VolumeStep FixSPHBulk::volume_step() const
@@ -819,6 +818,7 @@ void FixSPHBulk::post_integrate()
 void FixSPHBulk::shift_particles()
 {
   if (first_instance && fluid) fluid->shift_in_step(time_step().keep);
+  forces_jump = fluid && fluid->has_shifted() && !exact;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -84,6 +84,7 @@ class FixSPHBulk : public Fix {
   bool diffuses = false;          // densities change by the diffusion of volume
   bool exact = false;             // motion and heat exchange energy exactly, see integrate()
   double shift_speed = 0.0;       // scale and twice the limit of the velocity of particle shifting
+  bool forces_jump = false;       // particles were shifted in this step, without exact
   bool shift_by_rate = false;     // which follows the local rate of shear instead
   int remap_v_flag = 0;           // fix deform remaps velocities at periodic boundaries
   int integrated_groups = 0;      // bits of all groups with an integrator of this kind
