@@ -818,7 +818,7 @@ void FixSPHBulk::post_integrate()
 void FixSPHBulk::shift_particles()
 {
   if (first_instance && fluid) fluid->shift_in_step(time_step().keep);
-  forces_jump = fluid && fluid->has_shifted() && !exact;
+  forces_jump = fluid && fluid->has_shifted() && !exact && dtv > 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

@@ -219,6 +219,16 @@ def test_hybrid_overlay(lammps):
     assert_displaced(lammps, text, particles, SUPPORT[2])
 
 
+def test_time_step_zero(lammps):
+    """Nothing moves, and nothing becomes a number that is not finite."""
+    disordered(2, 13).write(lammps.path("box.data"))
+    lammps(header(2) + "read_data box.data\n" + fluid(2) + "fix FLUID all sph/bulk shift auto\ntimestep 0\ncompute E all property/atom esph\n"
+           + DUMP.replace("id xu", "id c_E xu") + "run 3\n")
+    first, *_, last = lammps.frames("out.dump")
+    for name in ("x", "v", "c_E"):
+        assert (first[name] == last[name]).all()
+
+
 def test_zero_is_no_shifting(lammps):
     disordered(2, 13).write(lammps.path("box.data"))
     frames = []
