@@ -122,9 +122,13 @@ class Plan:
         args = self.args
         self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
-        # under the pressure pb, the lattice of a wave falls apart after less than ten periods with 4
-        args.support = args.support or (6.0 if self.wave else 4.0)
-        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")    # c6 smooths a wave less, and its lattice is stable under pb
+        # mg/fr2 and wendland/c2 are right at three spacings in a flow whose particles are shifted.  A free surface and noise need mg, which
+        # dissipates there with any kappa.  c6 smooths a wave less; under the pressure pb, a lattice of it is stable, with 6 spacings for ten periods
+        flows = not (self.wave or args.column or args.temperature is not None)
+        args.shear = args.shear or ("mg/fr2" if flows else "mg")
+        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")
+        three = flows and (args.shear, args.kernel) == ("mg/fr2", "wendland/c2")
+        args.support = args.support or (6.0 if self.wave else 3.0 if three else 4.0)
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -550,9 +554,9 @@ def arguments(argv):
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
-    parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 4, for sound 6)")
+    parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 3 with mg/fr2 and wendland/c2, else 4, for sound 6)")
     parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
-    parser.add_argument("--shear", choices=SHEAR, default="mg", metavar="FORM", help="form of the shear term (default: %(default)s)")
+    parser.add_argument("--shear", choices=SHEAR, metavar="FORM", help="form of the shear term (default: mg/fr2; mg with noise, a free surface, or sound)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
