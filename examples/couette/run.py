@@ -18,7 +18,7 @@ from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 PLANE = (12, 24, 48)        # rows between the plates
 CIRCULAR = (10, 20, 40)     # rings between the cylinders
-SUPPORT = 5.0               # radius over particle spacing
+SUPPORT = 3.0               # radius over particle spacing
 PLANE_TIMES = (0.02, 0.05, 0.1, 0.2, 1.0)   # over gap^2/nu
 CIRCULAR_TIMES = (0.02, 0.05, 0.1, 0.2, 0.8)
 MU = 0.1            # of the plane flow, as in the input
