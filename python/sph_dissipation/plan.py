@@ -183,6 +183,8 @@ class Plan:
             self.real = fluids.Fluid(args.rho, None, args.mu, args.kappa)
         if self.wave and args.c in (None, "real") and not args.fluid:
             raise SystemExit("plan: --c real is for --fluid; sound in another one needs its speed after --c")
+        if self.wave and self.real.kappa is None:
+            raise SystemExit("plan: sound is damped by the bulk viscosity as well: give --kappa; 0 is for Stokes' hypothesis")
         if self.wave:
             self.real.c = self.c_fluid if args.c in (None, "real") else args.c
 
@@ -247,7 +249,7 @@ class Plan:
 
     def notes(self):
         args = self.args
-        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:.6g}, velocity {args.velocity:g}, units {self.units}"]
+        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:.6g}, velocity {args.velocity:g}, units {self.units}{self.kappa_note()}"]
         lines += self.frequency_notes()
         lines += self.wave_notes() if self.wave else self.flow_notes()
         steps = ", ".join(f"{name} {step:.4g}" for name, step in self.limits.items() if step < math.inf)
@@ -262,6 +264,12 @@ class Plan:
                          + ("; NOTE: above 0.1, raise c0 or the particle size" if self.thermal_mach() > 0.1 else ""))
         lines.append(f"particles           {self.number}, {args.particles} across; steps {self.steps}")
         return lines
+
+    def kappa_note(self):
+        """what is taken where no bulk viscosity is given"""
+        if self.real.kappa is not None:
+            return ""
+        return f"; kappa NOT GIVEN: {SHEAR[self.args.shear][1](self.dim) * self.mu:.4g}, what shear {self.args.shear} brings along"
 
     def flow_notes(self):
         args = self.args
@@ -424,6 +432,9 @@ class Column(Plan):
         self.largest = min(self.limits["acoustic"], self.limits["diffusion"]) if self.viscous else self.explicit
         self.dt = float(f"{self.args.fraction * self.largest:.3g}")
 
+    def kappa_note(self):
+        return "" if self.args.fluid or self.args.kappa is not None else f"; kappa NOT GIVEN: {self.kappa:.4g}, which damps sound"
+
     def frequency_notes(self):
         return []
 
@@ -540,7 +551,7 @@ def arguments(argv):
     parser.add_argument("--fluid", help="name in potentials/gases.sph or fluids.sph, in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]")
     parser.add_argument("--rho", type=positive, help="density")
     parser.add_argument("--mu", type=not_negative, help="shear viscosity")
-    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along)")
+    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along, with --column what damps sound; waves of sound need it)")
     parser.add_argument("--units", choices=BOLTZMANN, help="without --fluid (default: lj)")
     parser.add_argument("--length", type=positive, help="of the flow; the box is as wide")
     parser.add_argument("--velocity", type=positive, help=f"the largest of the flow, or of the wave (default: {SOUND_MACH:g} of the speed of sound)")
