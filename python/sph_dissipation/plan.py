@@ -315,7 +315,7 @@ class Plan:
         k = wave.wave_number(s.imag / (2 * math.pi))
         more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
-                     f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
+                     f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB{'/m' if self.units == 'si' else ' per unit of length'}"
                      + (f"; heat conduction, which this input leaves out, adds {100 * more:.2g} %" if more else ""))
         errors = ", ".join(f"{name} {100 * error:+.2g} %" for name, error in self.wave_errors(s).items())
         lines.append(f"errors              {errors}, of kernel, lattice, and step" if errors else
