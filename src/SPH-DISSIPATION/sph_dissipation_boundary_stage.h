@@ -63,7 +63,7 @@ namespace SPHDissipation {
     // PressureStage::set_bulk_term(), all values are linear in the velocities, and symmetric friction changes no velocity
     void extend(bool increments);
 
-    // After run() and before increments: note which particles have a positive pressure; without tension, only these push
+    // After run() and before increments: note which particles push: without tension, only those with a positive pressure
     void note_pressures();
 
     // After run(): set F (e.u)^2 of the pairs of fluid and boundaries, for the rates of shear

@@ -100,8 +100,8 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    // run(): set viscosities from the rates of shear at the present velocities, and keep these rates with owned particles;
-    // the second function: set viscosities from the kept rates
+    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep these rates.  keep():
+    // set viscosities from the kept rates
     void run(int not_fluid);
     void keep(int not_fluid);
 
