@@ -223,7 +223,7 @@ void AtomVecSPHBulkKokkos::sync_pinned(ExecutionSpace space, uint64_t mask, int 
 }
 
 /* ----------------------------------------------------------------------
-   Sort the fields, but for those that each force computation sets.
+   Sort the fields, except those that each force computation sets.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::sort_kokkos(Kokkos::BinSort<KeyViewType, BinOp> &sorter)

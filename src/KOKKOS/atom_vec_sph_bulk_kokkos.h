@@ -94,8 +94,8 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
 
   std::vector<std::unique_ptr<SPHDissipation::FieldKokkos>> fields;
 
-  // own fields in each kind of message, in the order of the strings of the CPU style, so that a message of the host has the
-  // same size
+  // Own fields in each kind of message, in the order of the strings of the CPU style: so messages of host and device have
+  // the same size
 
   std::vector<SPHDissipation::FieldKokkos *> sent[NOCCASION];
   uint64_t sent_mask(Occasion) const;

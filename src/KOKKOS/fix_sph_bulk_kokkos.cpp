@@ -27,7 +27,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// arrays on the device as functions, see TimeStep
+// Arrays on the device as functions, see TimeStep
 
 namespace {
 template <class DeviceType> struct ParticlesKokkos {
@@ -85,7 +85,7 @@ FixSPHBulkKokkos<DeviceType>::FixSPHBulkKokkos(LAMMPS *lmp, int narg, char **arg
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  datamask_read = EMPTY_MASK;    // each function says itself what it reads and modifies
+  datamask_read = EMPTY_MASK;    // each function syncs the fields that it reads
   datamask_modify = EMPTY_MASK;
 }
 
@@ -115,7 +115,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::write_restart(FIL
 }
 
 /* ----------------------------------------------------------------------
-   the pair style says itself what it does to masses and densities
+   Set masses and temperatures; the pair style syncs masses and densities itself.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_force(int vflag)
@@ -133,7 +133,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup(int vflag)
 {
   atomKK->sync(Host, TYPE_MASK | MASK_MASK | VFRAC_MASK | INERTIA_MASK | ENERGY | OFFSET_MASK);
   atomKK->modified(Host, INERTIA_MASK | ESPH_MASK | OFFSET_MASK);
-  FixSPHBulk::setup(vflag);    // whose reports synchronize the particles
+  FixSPHBulk::setup(vflag);    // its reports synchronize the particles
 }
 
 /* ---------------------------------------------------------------------- */
@@ -215,7 +215,7 @@ template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 }
 
 /* ----------------------------------------------------------------------
-   with reset_extrapolation() of the CPU style
+   Shift the particles, and do the work of reset_extrapolation() of the CPU style.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::post_integrate()
@@ -246,7 +246,7 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::pre_force(int vfl
 }
 
 /* ----------------------------------------------------------------------
-   among the particles of a new neighbor list, where they need inertia
+   Return whether any particle needs inertia and has none; check with a new neighbor list.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::anybody_without_inertia() const

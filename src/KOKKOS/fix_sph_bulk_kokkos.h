@@ -27,9 +27,8 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// The device does the work of every step, except for the exchange of energy of thermal noise, large
-// viscosities, and the velocities that fix deform remaps.  The CPU style does these, and the start of a
-// run, on the host.
+// fix sph/bulk with the work of every step on the device.  The CPU style does four things on the host: the exchange of
+// energy of thermal noise, large viscosities, velocities that fix deform remaps, and the start of a run.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:
@@ -44,7 +43,7 @@ template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
   void post_run() override;
   void write_restart(FILE *) override;
 
-  // of these; public because CUDA asks for it of functions with lambdas
+  // Integrate on the device; public, because CUDA requires this of functions with lambdas
 
   void integrate_on_device(Half);
   bool anybody_without_inertia() const;

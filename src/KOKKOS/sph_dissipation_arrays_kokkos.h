@@ -29,7 +29,7 @@ namespace SPHDissipation {
     Kokkos::parallel_for(name, Kokkos::RangePolicy<DeviceType>(0, n), function);
   }
 
-  // Call function with an object of the class that runs on the host (HostKK) or the device
+  // Call function with an object of the class for the host (HostKK) or for the device
 
   template <class Function> void on(ExecutionSpace space, Function &&function)
   {

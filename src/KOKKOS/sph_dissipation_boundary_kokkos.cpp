@@ -134,7 +134,7 @@ void BoundaryStageKokkos<DeviceType>::find_rows(const LoopDataKokkos<DeviceType>
 
 /* ----------------------------------------------------------------------
    Find the surface when the neighbor list is new: vectors toward the fluid on the device, as SurfaceStage::find_sides(); the
-   rest on the host, since it needs pairs of boundary particles, which are not in the neighbor list.
+   rest on the host, since the neighbor list does not have the pairs of boundary particles.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>

@@ -51,8 +51,8 @@ namespace SPHDissipation {
     Kokkos::View<int *, DeviceType> rows;
     int nrows;
 
-    // Entries of loops in which each particle sums up its own pairs of fluid and boundary: first the particles in rows, then
-    // the owned boundary particles
+    // Return the number of entries of loops over pairs of fluid and boundary: first the particles in rows, then the owned
+    // boundary particles; each entry sums up its own pairs
 
     int size() const { return nrows + nowned; }
     KOKKOS_INLINE_FUNCTION bool is_wall(int k) const { return k >= nrows; }
@@ -152,7 +152,7 @@ namespace SPHDissipation {
     {
     }
 
-    // After the pressures, before pass 2: set the values of owned boundary particles, which the pair style sends to ghosts
+    // After the pressures, before pass 2: set the values of owned boundary particles; the pair style sends them to ghosts
     void run(LoopDataKokkos<DeviceType> &, int inum);
 
     // After run(), when ghosts have the values of their owners: set the excess, for the heat in pass 2

@@ -99,8 +99,8 @@ template <class DeviceType> uint64_t FluidKokkos<DeviceType>::modified_mask() co
 }
 
 /* ----------------------------------------------------------------------
-   a task of the CPU style while the forces are computed on the device: with the particles, a
-   neighbor list and communication on the host
+   Run a task of the CPU style while the forces are computed on the device: with the particles, a neighbor list, and
+   communication on the host.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::function<void()> &task)
@@ -121,8 +121,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
 }
 
 /* ----------------------------------------------------------------------
-   the half list of the CPU style from the full one of the device; with newton on, IDs tell which of the
-   two owners has a pair of an owned particle and a ghost
+   Build the half list of the CPU style from the full list of the device.  With newton on, the IDs decide which of the two
+   owners has the pair of an owned particle and a ghost.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
@@ -169,8 +169,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
 }
 
 /* ----------------------------------------------------------------------
-   the reports need the pairs that pass 1 leaves; the densities stay as they are, those of walls are no
-   sums over their neighbors
+   Run a report.  Reports need the pairs of pass 1.  Restore the densities after this pass: the densities of walls are not
+   sums over their neighbors.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -206,7 +206,7 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_own_forces() const
 }
 
 /* ----------------------------------------------------------------------
-   with a full list, no heat is left with ghost atoms; that of states is of the energies now
+   Get the heat.  With a full list, ghost atoms have no heat.  The heat of states is from the present energies.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::heating(double *heat, double *power) const
@@ -272,7 +272,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 }
 
 /* ----------------------------------------------------------------------
-   arrays of owned particles that their states need
+   Set the arrays of owned particles that their states need.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_states()
@@ -357,7 +357,7 @@ template <class DeviceType> bool FluidKokkos<DeviceType>::has_rate(int place) co
 }
 
 /* ----------------------------------------------------------------------
-   coefficients of types and type pairs, and what the loops need of the model; those of states are of one time step
+   Copy coefficients of types and type pairs, and the parameters of the loops; numbers of states belong to one time step.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
@@ -382,7 +382,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::copy_coeffs()
 }
 
 /* ----------------------------------------------------------------------
-   what pass 1 reads of owned and ghost atoms
+   Set the input of pass 1, of owned and ghost atoms.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
@@ -425,7 +425,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_particles()
 }
 
 /* ----------------------------------------------------------------------
-   fields on the device; LAMMPS has some kinds of communication on the host, whatever the pair style is
+   Send fields on the device; with some kinds of communication, LAMMPS sends on the host, whatever the pair style is.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -452,7 +452,7 @@ void FluidKokkos<DeviceType>::send_to_ghosts(const std::vector<Field> &fields)
 }
 
 /* ----------------------------------------------------------------------
-   a loop over the rows of the neighbor list: its members are the data and more
+   Run a loop over the rows of the neighbor list; a loop has the data and further members.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -466,7 +466,7 @@ void FluidKokkos<DeviceType>::sum_pairs(const char *name, const More &...more)
 }
 
 /* ----------------------------------------------------------------------
-   thermal pressure needs the energy of ghost atoms
+   Run pass 1.  Thermal pressure needs the energy of ghost atoms.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
@@ -474,7 +474,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
   if (!on_device) return Fluid::sum_density();
   copy_coeffs();
   grow();
-  // what it modifies, too: LAMMPS communicates on the host if MPI does not know the GPU
+  // also sync modified fields: LAMMPS communicates on the host if MPI cannot use the memory of the GPU
   atomKK->sync(pair->execution_space, read_mask() | modified_mask());
   set_particles();
   sum_pairs<DensityLoopKokkos>("sph:density");
@@ -551,7 +551,7 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::set_pressure()
 }
 
 /* ----------------------------------------------------------------------
-   ghosts of the fluid get what they have already
+   Set the values of boundary particles, and send them to ghosts.  The message is redundant for ghosts of the fluid.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()

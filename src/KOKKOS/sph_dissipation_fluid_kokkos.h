@@ -34,8 +34,7 @@ namespace SPHDissipation {
   template <class DeviceType> struct LoopDataKokkos;
   template <class DeviceType> struct ShiftDataKokkos;
 
-  // the fields of particles that the forces read and modify; the atom style leaves out those that it
-  // does not have
+  // Fields of particles that the forces read and modify; the atom style ignores fields that it does not have
 
   constexpr uint64_t FLUID_READ = X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
       VEST_MASK | TORQUE_MASK | OMEGAEST_MASK | STATES_MASK;
@@ -44,15 +43,15 @@ namespace SPHDissipation {
       F_MASK | TORQUE_MASK | DESPH_MASK | STATES_MASK | FLUID_DERIVED;
   constexpr uint64_t FLUID_SET_ON_HOST = RMASS_MASK | STATES_MASK | OFFSET_MASK | FLUID_DERIVED;
 
-  // The fluid on the device, with full neighbor lists; or on the host by the loops of the CPU style and
-  // half lists, with the threads of KOKKOS.  The reports at the start of a run are made on the host.
+  // The fluid on the device, with full neighbor lists; or on the host, with the loops of the CPU style, half lists, and the
+  // threads of KOKKOS.  Reports at the start of a run are made on the host.
 
   template <class DeviceType> class FluidKokkos : public Fluid {
    public:
     FluidKokkos(class LAMMPS *, Pair *, bool spins);
     ~FluidKokkos() override;
 
-    // from the pair style, before init(): where forces are computed in this run
+    // Called by the pair style before init(): choose where forces are computed in this run
 
     void choose(bool device);
     void request_list() override;
@@ -68,7 +67,7 @@ namespace SPHDissipation {
     double received_heat(int groupbit) const override;
     double memory_usage() const override;
 
-    // on the device where that computes; public because CUDA asks for it of functions with lambdas
+    // Parts of compute(), on the device if it was chosen; public, because CUDA requires this of functions with lambdas
 
     void sum_density() override;
     void begin_run(double dt, bool continues, const Changes &) override;
@@ -98,7 +97,7 @@ namespace SPHDissipation {
     std::vector<int> host_neighbors;
     int nlocal_device, nghost_device;    // # of atoms of the last computation on the device
 
-    // what data refers to, on the device
+    // Arrays on the device to which data refers
 
     template <class T> using Array = Kokkos::View<T *, DeviceType>;
     std::unique_ptr<LoopDataKokkos<DeviceType>> data;

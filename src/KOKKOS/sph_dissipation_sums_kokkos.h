@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 
-// Further sums over the pairs of each particle: as classes LimitStage, FlowStage, DiffusionStage and ShiftStage of the CPU
+// Other sums over the pairs of each particle, as classes LimitStage, FlowStage, DiffusionStage and ShiftStage of the CPU
 // styles
 
 #include "sph_dissipation_loops_kokkos.h"
@@ -23,13 +23,13 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // a flow, as flow_loop() of the CPU styles
+  // A flow, as flow_loop() of the CPU styles
 
   template <class DeviceType, class K> struct FlowLoopKokkos {
     LoopDataKokkos<DeviceType> data;
     int place;         // of the flow
-    double *rate;      // what each particle gets per time; nullptr: it is not asked for
-    bool of_energy;    // it is added to the rate of the internal energy
+    double *rate;      // amount that each particle gets per time; nullptr: not needed
+    bool of_energy;    // the amount is added to the rate of the internal energy
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
@@ -50,7 +50,7 @@ namespace SPHDissipation {
     }
   };
 
-  // the diffusion of volume: what DiffusionStage has, on the device
+  // The diffusion of volume: the arrays of DiffusionStage, on the device
 
   struct DiffusionRowsKokkos {
     DiffusionRow *row;      // of owned and ghost particles, as the next one
@@ -60,7 +60,7 @@ namespace SPHDissipation {
     double *support;
   };
 
-  // F of a pair, and a without that factor
+  // Return F of a pair; return a of the pair without this factor
 
   template <class K, class DeviceType>
   KOKKOS_FORCEINLINE_FUNCTION double pair_slope(const LoopDataKokkos<DeviceType> &data, double rsq)
@@ -76,7 +76,7 @@ namespace SPHDissipation {
     return slope_by_impedance(slope, rows.impedance[i], rows.impedance[j]);
   }
 
-  // the gradient of the pressure, into the row of each particle, as diffusion_sums() of the CPU styles
+  // Set the gradient of the pressure in the row of each particle, as diffusion_sums() of the CPU styles
 
   template <class DeviceType, class K, int DIM> struct GradientLoopKokkos {
     typedef DiffusionPlaces<DIM> At;
@@ -109,7 +109,7 @@ namespace SPHDissipation {
     }
   };
 
-  // the rates, with the gradients, as diffusion_flow()
+  // Set the rates from the gradients, as diffusion_flow()
 
   template <class DeviceType, class K, int DIM> struct DiffusionLoopKokkos {
     typedef DiffusionPlaces<DIM> At;
@@ -173,7 +173,7 @@ namespace SPHDissipation {
       velocity_in_shift(row[i], data.particle[i].u, v);
     }
 
-    // function(j, a_ij, r_ij at the new places) for the neighbors with which particle i shifts
+    // Call function(j, a_ij, r_ij at the new places) for the neighbors with which particle i shifts
 
     template <class K, class Function>
     KOKKOS_INLINE_FUNCTION void for_partners(int i, const Function &function) const

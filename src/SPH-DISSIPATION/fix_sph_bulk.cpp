@@ -77,11 +77,11 @@ static const char cite_rkl2[] =
     " doi =     {10.1016/j.jcp.2013.08.021},\n"
     "}\n\n";
 
-// first number of the data in a restart file, with a minus
+// Minus the first number of the data in a restart file
 
 static constexpr int FORMAT = 1101;
 
-// the style of which another one, with the suffix of an accelerator package of LAMMPS, is a variant
+// Return the name of a style without the suffix of an accelerator package of LAMMPS
 
 static std::string without_suffix(const std::string &style)
 {
@@ -90,7 +90,7 @@ static std::string without_suffix(const std::string &style)
 
 namespace {
 
-// arrays of class Atom and class Fields as functions, see TimeStep
+// Arrays of class Atom and class Fields as functions, see TimeStep
 
 struct Scalars {
   double *array;
@@ -116,10 +116,9 @@ struct Particles {
   }
 };
 
-// The heat of the pair style is minus the work of its forces at the velocity in the friction,
-// acting.  Over half a kick they do work at the mean velocity of the kick.  With the difference,
-// returned here before the kick, the sum of kinetic and internal energy is conserved exactly. The
-// same for spins.
+// Return, before half a kick, the heat that conserves the sum of kinetic and internal energy exactly.  The heat of the pair
+// style is minus the work of its forces at the velocity in the friction, acting.  Over half a kick, the forces do work at
+// the mean velocity of the kick.  The result is the difference; the same holds for spins.
 
 double rest_of_heat(const TimeStep &step, const double *v, const double *acting, const double *f,
                     const double *own, double mass_inv)
@@ -351,7 +350,7 @@ bool FixSPHBulk::has_viscous_stage() const
 }
 
 /* ----------------------------------------------------------------------
-   of the friction, then of the conduction of heat, see StiffStage
+   Return numbers of the solver: first those of the friction, then those of the conduction of heat, see StiffStage.
 ------------------------------------------------------------------------- */
 
 double FixSPHBulk::compute_vector(int n)
@@ -363,7 +362,7 @@ double FixSPHBulk::compute_vector(int n)
 }
 
 /* ----------------------------------------------------------------------
-   a particle in the groups of two such fixes would move twice in every step
+   Stop if a particle is in the groups of two such fixes: it would move twice in every step.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_integrated_once()
@@ -407,8 +406,8 @@ void FixSPHBulk::setup(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   particles may be fixed on purpose, but not be forgotten, and LAMMPS's rigid bodies alone are bodies of fluid; walls are
-   no fluid
+   Warn of fluid particles without an integrator, which may be forgotten or fixed on purpose, and of particles that only
+   LAMMPS's rigid bodies move: they act as fluid.  Walls do not count.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::warn_not_integrated()
@@ -444,10 +443,9 @@ void FixSPHBulk::warn_not_integrated()
 }
 
 /* ----------------------------------------------------------------------
-   A run that continues the last one begins with the extrapolated velocity and energy of its last
-   step, others with velocity and energy themselves.  This comes before the exchange of atoms, so
-   that ghost atoms get them with their borders. With velocity remapping vest holds the increment
-   only, see add_remapped_velocity()
+   Set vest and the energy for the first forces.  A run that continues the last run begins with the extrapolated velocity and
+   energy of its last step, other runs with velocity and energy themselves.  The exchange of atoms comes later, so that ghost
+   atoms get these values.  With velocity remapping, vest is only the increment, see add_remapped_velocity().
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_exchange()
@@ -491,8 +489,8 @@ void FixSPHBulk::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   of the particles of all integrators, of those that others drive, and of walls, which set their velocity themselves,
-   see Fluid::note_change()
+   Leave traces of all particles: of all integrators, of other fixes, and of walls, which set their velocity themselves; see
+   Fluid::note_change().
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::leave_traces()
@@ -514,8 +512,8 @@ Traced FixSPHBulk::traced(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   on all processors; not in a minimization, which has no velocities, nor for the snapshots of a rerun.
-   With large viscosities, the extrapolated velocity makes a step of one length only.
+   Return, on all processors, whether the run continues the last run.  A minimization has no velocities, and rerun has
+   unrelated snapshots: return false.  With large viscosities, the extrapolated velocity is valid for one time step only.
 ------------------------------------------------------------------------- */
 
 bool FixSPHBulk::is_continued() const
@@ -541,8 +539,8 @@ int FixSPHBulk::bits_not_followed() const
 }
 
 /* ----------------------------------------------------------------------
-   a particle that arrives in a run does so at the end of a step, with its velocity
-   before the borders are set up, so that its ghosts get it, too
+   Set the fields of a particle that arrives in a run, at the end of a step.  The borders are set up later, so that ghosts
+   get the velocity, too.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::set_arrays(int i)
@@ -551,7 +549,7 @@ void FixSPHBulk::set_arrays(int i)
 }
 
 /* ----------------------------------------------------------------------
-   the second half of the kick is that of the forces at the end of the step
+   Let a particle join the group: the forces at the end of the step do the second half of its kick.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::arrive(int i)
@@ -564,7 +562,7 @@ void FixSPHBulk::arrive(int i)
 }
 
 /* ----------------------------------------------------------------------
-   with its velocity and spin at the end of the step, extrapolated, which vest and omegaest need not be
+   Let a particle leave the group.  Set vest and omegaest to the extrapolated values at the end of the step.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::depart(int i)
@@ -577,7 +575,7 @@ void FixSPHBulk::depart(int i)
 }
 
 /* ----------------------------------------------------------------------
-   of a run, or of a minimization
+   Prepare the first forces of a run, or of a minimization.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_force(int /*vflag*/)
@@ -600,8 +598,8 @@ void FixSPHBulk::set_masses()
 }
 
 /* ----------------------------------------------------------------------
-   Densities follow from the masses, which therefore come first, of all integrators.  A minimization leaves internal
-   energies alone.
+   Set the temperatures, after the masses of all integrators, which determine the densities.  A minimization does not change
+   internal energies.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::set_temperatures()
@@ -633,8 +631,8 @@ bool FixSPHBulk::sets_temperatures() const
 }
 
 /* ----------------------------------------------------------------------
-   from the volumes of the force computation before; particles that have got their
-   inertia keep it, so that angular momentum is conserved
+   Set the inertia from the volumes of the last force computation.  Particles with an inertia keep it, so that angular
+   momentum is conserved.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::set_inertia()
@@ -648,8 +646,7 @@ void FixSPHBulk::set_inertia()
 }
 
 /* ----------------------------------------------------------------------
-   a particle that arrives in a run gets the inertia of its reference volume: its volume is not known before
-   the forces
+   Set the inertia of a particle that arrives in a run, from its reference volume: the volume is not known before the forces.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::set_inertia_of(int i, double &inertia) const
@@ -668,7 +665,7 @@ bool FixSPHBulk::has_torques() const
 }
 
 /* ----------------------------------------------------------------------
-   a torque on a particle without inertia would be lost, and angular momentum with it
+   Stop if particles with torques have no inertia: angular momentum would be lost.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_inertia() const
@@ -708,7 +705,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   also for particles of the fluid that no fix of this kind integrates
+   Begin a step, also for particles of the fluid that no fix of this kind integrates.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::begin_step()
@@ -774,7 +771,7 @@ void FixSPHBulk::integrate(Half half)
 }
 
 /* ----------------------------------------------------------------------
-   the time step, the pair style, and its forces are those of another fix then, or none
+   Stop if init() has not run: time step, pair style, and forces would be those of another fix, or missing.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_set_up()
@@ -789,7 +786,7 @@ void FixSPHBulk::check_set_up()
 }
 
 /* ----------------------------------------------------------------------
-   of the time step, by commands between runs of which the second one has no setup
+   Warn if commands between two runs have more than doubled the time step, and the second run has no setup.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::warn_of_jump() const
@@ -805,8 +802,8 @@ void FixSPHBulk::warn_of_jump() const
 }
 
 /* ----------------------------------------------------------------------
-   Shift the particles of all fixes of this kind, which have done the first half of the step.  Particles that none of them
-   integrates move with the velocity that another fix gave them.
+   Shift the particles of all fixes of this kind, after the first half of the step.  Particles without such a fix move with
+   the velocity from another fix.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::post_integrate()
@@ -835,8 +832,8 @@ void FixSPHBulk::pre_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   velocities of ghost atoms change when fix deform remaps them at a periodic
-   boundary: add the velocity after the communication, on owned and ghost atoms
+   Add the velocity to vest after the communication, on owned and ghost atoms: fix deform may remap the velocities of ghost
+   atoms at a periodic boundary.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::add_remapped_velocity()
@@ -874,7 +871,7 @@ int FixSPHBulk::nlocal_group() const
 }
 
 /* ----------------------------------------------------------------------
-   not kept, for replicate makes a new one
+   Return the fields of the atom style.  Do not keep the pointer: replicate makes a new atom style.
 ------------------------------------------------------------------------- */
 
 Fields &FixSPHBulk::fields() const
@@ -883,8 +880,8 @@ Fields &FixSPHBulk::fields() const
 }
 
 /* ----------------------------------------------------------------------
-   masses and temperatures are set once; a continued run keeps those of its restart file, and the inertia that its
-   particles have, unless its input gives other numbers for temperature or inertia than those by which they were set
+   Write what was set once.  A continued run keeps masses, temperatures, and inertia of the restart file, unless its input
+   has other numbers for temperature or inertia.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::write_restart(FILE *fp)

@@ -36,13 +36,11 @@ namespace SPHDissipation {
   struct VolumeStep;
 }    // namespace SPHDissipation
 
-// Velocity Verlet for position, velocity and internal energy of a particle fluid, with the
-// velocity extrapolated to the end of the step for the forces: vest = v + dt f/m.  With thermal
-// noise, vest is the velocity in the middle of the step: then the velocities at its ends have
-// exactly the temperature of the noise in the linear regime, for any time step.  With large
-// viscosities, vest carries the forces of other styles to ViscousStage.  As sph/micropolar, also
-// for spins: m I d(omega)/dt = torque with a moment of inertia that stays constant, so that angular
-// momentum is conserved exactly.
+// Velocity Verlet for position, velocity and internal energy of a particle fluid.  The forces have the velocity extrapolated
+// to the end of the step: vest = v + dt f/m.  With thermal noise, vest is the velocity in the middle of the step: then, in
+// the linear regime, the velocities at both ends have exactly the temperature of the noise, for any time step.  With large
+// viscosities, vest carries the forces of other styles to ViscousStage.  sph/micropolar also integrates spins: m I
+// d(omega)/dt = torque, with a constant moment of inertia, so that angular momentum is conserved exactly.
 
 class FixSPHBulk : public Fix {
  public:
@@ -66,13 +64,13 @@ class FixSPHBulk : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // before the first forces; masses first, of all integrators, then with the volumes the inertia: also of a
-  // fix that needs them before the integrator is set up.  Each is set once
+  // Set masses, then inertia from the volumes, of all integrators before the first forces.  Each is set once.  A fix that
+  // needs masses or inertia before the integrator is set up also calls these functions
   void set_masses();
   void set_inertia();
   bool has_set_masses() const { return density_flag && density_done; }
 
-  // a particle joins the group, or leaves it, within a step, after the first half of the kick
+  // Let a particle join the group, or leave it, within a step, after the first half of the kick
   void arrive(int i);
   void depart(int i);
 
@@ -85,7 +83,7 @@ class FixSPHBulk : public Fix {
   bool exact = false;             // motion and heat exchange energy exactly, see integrate()
   double shift_speed = 0.0;       // scale and twice the limit of the velocity of particle shifting
   bool forces_jump = false;       // particles were shifted in this step, without exact
-  bool shift_by_rate = false;     // which follows the local rate of shear instead
+  bool shift_by_rate = false;     // this velocity follows the local rate of shear instead
   int remap_v_flag = 0;           // fix deform remaps velocities at periodic boundaries
   int integrated_groups = 0;      // bits of all groups with an integrator of this kind
   bool first_instance = false;    // acts for the particles outside all these groups
@@ -100,19 +98,19 @@ class FixSPHBulk : public Fix {
 
   bool sets_temperatures() const;    // in setup_pre_force()
 
-  // when the neighbor list is new, particles without inertia get one, or are an error
+  // Return true if particles without inertia get one at a new neighbor list, or are an error
   bool needs_inertia() const { return inertia_flag || has_torques(); }
 
  private:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
   const bool spins;                 // the particles have them
-  double dt_of_forces = 0.0;        // time step that the forces are of
+  double dt_of_forces = 0.0;        // time step of the last forces
   double dt_of_states = 0.0;        // time step for which the states hold
   double extrapolation = 1.0;       // of velocities over half a step: 1, with thermal noise 0
   bool balanced = false;            // heat gets half of its rate at each end of a step, temp energy
   const std::unique_ptr<SPHDissipation::ViscousSettings> viscous;
   std::unique_ptr<SPHDissipation::Value> temperature;    // at the start, nullptr without
-  bool temperature_done = false;    // the particles have got it, in this run or before a restart
+  bool temperature_done = false;    // the particles have it, from this run or a restart file
 
   SPHDissipation::Fields &fields() const;
   void read_keywords(int narg, char **arg);
@@ -120,8 +118,8 @@ class FixSPHBulk : public Fix {
 
   void reset_extrapolation();    // of particles that no such fix integrates
 
-  // If neither positions nor velocities have changed since the last run, nor those of walls, a run continues it with the
-  // extrapolated quantities of its last step
+  // A run continues the last run with the extrapolated quantities of its last step, if neither positions nor velocities of
+  // particles and walls have changed since
 
   struct Last {
     bool known;    // a step was taken
@@ -146,11 +144,11 @@ class FixSPHBulk : public Fix {
 
   int inertia_flag = 0;    // 1: the keyword is there, I = factor V^(2/n) + offset
   double factor = 0.0, offset = 0.0;
-  bool inertia_done = false;    // the particles have the inertia of these numbers, but for new ones
-  int density_done = 0;         // the masses were set, in this run or before a restart
-  int density_flag = 0;         // set the masses so that the mean density is rho0
-  bool set_up = false;          // since it was defined
-  FixSPHBulk *first = nullptr;         // the first instance
+  bool inertia_done = false;      // all particles but new ones have the inertia of these numbers
+  int density_done = 0;           // the masses were set, in this run or before a restart
+  int density_flag = 0;           // set the masses so that the mean density is rho0
+  bool set_up = false;            // since it was defined
+  FixSPHBulk *first = nullptr;    // the first instance
   bool energy_extrapolated = false;    // for the first forces of a run
   bigint setup_step = 0;               // of the last setup
   bool last_instance = false;          // acts when all are set up

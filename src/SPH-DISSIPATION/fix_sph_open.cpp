@@ -312,8 +312,8 @@ bool FixSPHOpen::has_lost_members() const
 }
 
 /* ----------------------------------------------------------------------
-   Count the forces at the start of the step for its first half, and move the particles of the zone with
-   the velocity that they had then.
+   Count the forces of the start of the step for its first half, and move the particles of the zone with the velocity of this
+   time.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::initial_integrate(int /*vflag*/)
@@ -328,8 +328,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Correct the move to that of the mean velocity of the step, and let particles enter and leave.  Along the plane, particles
-   move with the given velocity, if there is one: with their own velocity, particles that leave would gather, or enter walls.
+   Correct the move to the mean velocity of the step, and let particles enter and leave.  Along the plane, particles move
+   with the given velocity, if there is one: with their own velocity, particles that leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -368,7 +368,7 @@ void FixSPHOpen::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   Make a particle of the zone one of the fluid, whose integrator does the second half of the step.
+   Turn a particle of the zone into one of the fluid; the integrator of the fluid does the second half of the step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::enter(int i, const double *v)
@@ -398,8 +398,8 @@ void FixSPHOpen::compress(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Make a particle of the fluid one of the zone, which has no strain.  The integrator has extrapolated its internal
-   energy to the end of the step: the second half is taken back, and the density is that of the same time.
+   Turn a particle of the fluid into one of the zone, without strain.  The integrator has extrapolated its internal energy to
+   the end of the step: subtract the second half; the density then belongs to the same time.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::leave(int i)
@@ -492,7 +492,7 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
 
 /* ----------------------------------------------------------------------
    Measure the fluid near the plane, and count its particles that leave faster than sound.  Both need the variables at these
-   particles, which therefore have the group of the zone during the evaluation.
+   particles: so these particles are in the group of the zone during the evaluation.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
@@ -523,8 +523,8 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   Warn, with each new neighbor list until the first time, of a gap, and of fluid that leaves faster than sound, from where
-   no wave comes back, so that nothing can be prescribed.  nsupersonic = such particles of all processors.
+   With each new neighbor list, check for a gap, and for fluid that leaves faster than sound; warn once of each.  No wave
+   comes back from such fluid: nothing can be prescribed.  nsupersonic = such particles of all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn(double nsupersonic)

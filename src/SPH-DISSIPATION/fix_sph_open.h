@@ -42,8 +42,8 @@ namespace SPHDissipation {
   struct OpenState;
 }    // namespace SPHDissipation
 
-// Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves its particles, sets their state to the
-// prescribed one or that of the fluid, turns particles of the zone into fluid and back, and sums up what they carry.
+// Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves the particles of the zone, sets their state
+// to the prescribed state or to the state of the fluid, turns them into fluid and back, and sums up what they carry.
 // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
 class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {

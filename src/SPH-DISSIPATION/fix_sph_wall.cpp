@@ -292,7 +292,7 @@ void FixSPHWall::check_heat() const
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocity before the exchange of atoms, so that ghost atoms get it with their borders; in a minimization nothing
+   Set the velocity before the exchange of atoms, so that ghost atoms get it with their borders.  In a minimization, nothing
    moves.
 ------------------------------------------------------------------------- */
 
@@ -475,8 +475,8 @@ void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool befor
 }
 
 /* ----------------------------------------------------------------------
-   Set the values of the wall particles in the pair forces.  An extrapolated pressure has no energy: in a
-   minimization it is zero, and the forces are the gradient of the energy of the fluid.
+   Set the values of the wall particles in the pair forces.  An extrapolated pressure has no energy: a minimization sets
+   it to zero, so that the forces are the gradient of the energy of the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
@@ -505,8 +505,8 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
     from_point(i, now, r);
     now.acceleration_at(r, acceleration);
 
-    // with thermal noise: own motion, volume, and friction of the wall, for which the friction matrix is symmetric, and a
-    // pressure that does not depend on the fluid, so that its force has an energy
+    // With thermal noise, the wall has its own motion, volume, and friction, so that the friction matrix is symmetric.  Its
+    // pressure does not depend on the fluid, so that the force has an energy
 
     if (noise) {
       const EosParams &eos = model.coeffs[atom->type[i]].eos;
@@ -629,7 +629,7 @@ void FixSPHWall::from_point(int i, const WallVelocity &now, double *r) const
 }
 
 /* ----------------------------------------------------------------------
-   Write the motion with the point on the axis, which moves with the wall; the heat that the wall has given; the bodies.
+   Write the motion with the point on the axis, since this point moves with the wall; the heat given so far; the bodies.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::write_restart(FILE *fp)
@@ -658,7 +658,7 @@ void FixSPHWall::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   Force and couple on each particle, array_atom: the rows of wall particles migrate, those of others are 0.
+   Force and couple on each particle, array_atom: rows of wall particles migrate, rows of other particles are 0.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::grow_arrays(int nmax)

@@ -210,8 +210,8 @@ bool FixSPHWall::check_movers() const
 }
 
 /* ----------------------------------------------------------------------
-   Check that the fix that moves a body has no less mass than the particles, whose mass the solver of large viscosities uses:
-   with half the mass, the error of the acting velocity grows from step to step.
+   Check that the fix that moves a body has at least the mass of the particles.  The solver of large viscosities uses the
+   mass of the particles: with half the mass in the fix, the error of the acting velocity grows from step to step.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_masses() const
@@ -237,8 +237,8 @@ void FixSPHWall::check_masses() const
 }
 
 /* ----------------------------------------------------------------------
-   Warn if a periodic border cuts a body, or a rotating wall, in two: particles lie on both sides of the border and none in
-   some other part of the box, but the first part of the box does not continue the image of the last one.
+   Warn if a periodic border cuts a body, or a rotating wall, in two: particles lie on both sides of the border, some other
+   part of the box has none, and the first part of the box does not continue the image of the last part.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_pieces(const Fluid *fluid) const
@@ -301,8 +301,8 @@ void FixSPHWall::check_pieces(const Fluid *fluid) const
 }
 
 /* ----------------------------------------------------------------------
-   Warn if particles of bodies are dry with tension yes: with density continuity, they have the density of their body alone
-   and would pull on the fluid.
+   Warn if particles of bodies are dry with tension yes.  With density continuity, such particles have the density of their
+   body alone, and would pull on the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_tension(const Fluid *fluid) const
@@ -381,9 +381,9 @@ std::set<int> FixSPHWall::interacting_types(const Fluid *fluid) const
 }
 
 /* ----------------------------------------------------------------------
-   Warn if the wall does not fill the support of the fluid at its surface, with ghost atoms.  The first layer has fluid at
-   the distance of the particle spacing; below it, the wall must go as deep as the support radius minus
-   one spacing.  The neighbor lists have no pairs of wall particles, hence the cells.
+   Warn if the wall, ghost atoms included, does not fill the support of the fluid at its surface.  The first layer has fluid
+   at the distance of the particle spacing; below it, the wall must be as deep as the support radius minus one spacing.  The
+   neighbor lists have no pairs of wall particles: use cells.
    Warn if masses of particles with a full support are not rho0 times their volume, that is the integral of a kernel
    (1 - r^2/R^2)^2 over its sum.
 ------------------------------------------------------------------------- */

@@ -135,7 +135,7 @@ void Bodies::sum(double **velocity)
 }
 
 /* ----------------------------------------------------------------------
-   Find the principal axes and moments; the moment is 0 in directions in which a line or a point has no inertia.
+   Find the principal axes and moments.  The moment is 0 about an axis without inertia, as that of a line or a point.
 ------------------------------------------------------------------------- */
 
 void Bodies::find_axes(Body &body) const
@@ -155,7 +155,7 @@ void Bodies::find_axes(Body &body) const
 }
 
 /* ----------------------------------------------------------------------
-   turn_along(): I^-1 L along the principal axes; from_axes(): the same vector in space; set_acting(): set the acting
+   turn_along(): find I^-1 L along the principal axes; from_axes(): find this vector in space; set_acting(): set the acting
    velocity
 ------------------------------------------------------------------------- */
 
@@ -249,9 +249,9 @@ bool Bodies::start(bool keep)
 }
 
 /* ----------------------------------------------------------------------
-   The rotation of a step is that by the angular velocity in its middle.  The angular momentum, to which the torques are
-   added, belongs to the orientation in the middle if lagging.  The forces of others are the change of momentum in the first
-   half of the step that the pair style does not explain.
+   Find the motion of a step.  The rotation has the angular velocity in the middle of the step.  If lagging, the angular
+   momentum, to which the torques are added, belongs to the orientation in the middle.  The forces of other styles are the
+   change of momentum in the first half of the step, less the forces of the pair style.
 ------------------------------------------------------------------------- */
 
 void Bodies::advance(double extrapolation)
@@ -339,7 +339,7 @@ void Bodies::sum_forces(const std::function<const double *(int)> &force, double 
 }
 
 /* ----------------------------------------------------------------------
-   Return the rest of heat, see rest_of_heat(), for half a kick from the first velocity to the second one.
+   Return the rest of heat, see rest_of_heat(), for half a kick from the first velocity to the second velocity.
 ------------------------------------------------------------------------- */
 
 double Bodies::rest_between(const Body &body, const double *v, const double *angular,

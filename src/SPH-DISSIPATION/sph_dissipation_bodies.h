@@ -25,8 +25,8 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   struct ForceSum;
 
-  // Rigid bodies of particles that another fix moves: finds place and velocity of each body from its particles, and
-  // extrapolates the acting velocity, that in the forces, from the middle of the step to its end
+  // Rigid bodies of particles that another fix moves.  Finds place and velocity of each body from its particles, and
+  // extrapolates the acting velocity (the velocity in the forces) from the middle of the step to the end
 
   class Bodies : public RigidMotions, protected Pointers {
    public:
@@ -46,8 +46,8 @@ namespace SPHDissipation {
     {
     }
 
-    // At the start of a run: find the bodies, molecules or all particles as one.  lagging: the fix that moves the bodies
-    // gives their particles the angular velocity of the orientation in the middle of the step
+    // At the start of a run: find the bodies: each molecule, or all particles as one body.  lagging: the fix that moves the
+    // bodies gives their particles the angular velocity of the orientation in the middle of the step
     void init(bool by_molecule, bool lagging);
 
     int size() const override { return static_cast<int>(bodies.size()); }
@@ -57,11 +57,11 @@ namespace SPHDissipation {
     // Get the acting velocity of its body at the place of an owned particle
     void velocity_at(int i, double *v) const;
 
-    // At the start of a run: take the velocities of the particles; return whether the bodies move as at the end of the last
-    // step.  keep: in this case, the acting velocity is vest of the particles
+    // At the start of a run: take the velocities of the particles; return whether the bodies still have the velocities of
+    // the end of the last step.  keep: if so, the acting velocity is vest of the particles
     bool start(bool keep);
-    // After the particles have moved: set the acting velocity to that of the middle of the step, plus this factor times the
-    // increment since the end of the last step
+    // After the particles have moved: set the acting velocity to the velocity in the middle of the step, plus this factor
+    // times the increment since the end of the last step
     void advance(double extrapolation);
     void end_step();    // takes the velocities at the end of the step
 
@@ -69,7 +69,7 @@ namespace SPHDissipation {
     void note_forces(const ForceSum *);
 
     // Return the share of an owned particle in the energy that half a kick misses: the work of the forces of the pair style
-    // at the acting velocity less that at the velocity of the kick
+    // at the acting velocity, less their work at the velocity of the kick
     double rest_of_heat(int i) const;
 
     void append(bool starts, RigidRows &) const override;

@@ -26,8 +26,8 @@ namespace SPHDissipation {
   struct OpenImpact;
   struct Surface;
 
-  // Rigid bodies as unknowns of ViscousStage: six rows each, velocity and, along the principal axes, angular velocity;
-  // forces and torques have the same rows.  All processors have the rows of all bodies
+  // Rigid bodies as unknowns of ViscousStage.  A body has six rows: velocity, and angular velocity along the principal axes.
+  // Forces and torques have the same rows.  All processors have the rows of all bodies.
 
   struct RigidRows {
     std::vector<double> mass, before, guess, others;    // see ViscousStage
@@ -38,7 +38,7 @@ namespace SPHDissipation {
     static constexpr int WIDTH = 6;
     virtual int size() const = 0;    // number of bodies
 
-    // Append the rows of the bodies; starts: a run starts, with velocities at the time of the positions
+    // Append the rows of the bodies; starts: at the start of a run, velocities belong to the time of the positions
     virtual void append(bool starts, RigidRows &) const = 0;
 
     // Call function(i, velocity) for each owned particle of the bodies
@@ -54,15 +54,15 @@ namespace SPHDissipation {
     ~RigidMotions() = default;
   };
 
-  // Interface of a fix whose particles are not fluid but a wall or body at its edge, for the work between the two passes of
+  // Interface of a fix whose particles are a wall or a body at the edge of the fluid, for the work between the two passes of
   // the pair style.  The fix calls BoundaryStage::add() in its init() and remove() when it is deleted.
 
   class Boundary {
    public:
     virtual int boundary_bit() const = 0;    // bit of the group of its particles
 
-    // Set Surface::omega of owned and ghost particles of the fix; before: turn their normals by the motion of the last step,
-    // since they date from before it
+    // Set Surface::omega of owned and ghost particles of the fix.  before: the normals are older than the last step; turn
+    // them by its motion
 
     virtual void move_surface(BoundaryStage &, Surface *, bool before) = 0;
 
@@ -71,24 +71,24 @@ namespace SPHDissipation {
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
-    // Return true if the friction is symmetric: that with the velocity of the rigid body, times surface_factor(), instead of
-    // that with the values of set_boundary()
+    // Return true if the friction is symmetric: it then has the velocity of the rigid body and the factor surface_factor(),
+    // instead of the values of set_boundary()
 
     virtual bool has_symmetric_friction() const { return false; }
 
-    // Set the numbers, from first on, of bodies that the fluid moves in body[i] of owned particles; return the next number.
-    // The particles of a body alone define its surface.  Their pressure is that of frozen fluid, with the energy of the
-    // equation of state, see BoundaryStage::set_frozen()
+    // Set body[i] of owned particles to the number, from first on, of their body that the fluid moves; return the next
+    // number.  The particles of a body alone define its surface.  They have the pressure of frozen fluid, with the energy of
+    // the equation of state, see BoundaryStage::set_frozen()
 
     virtual bool has_bodies() const { return false; }
     virtual int number_bodies(int first, double * /*body*/) { return first; }
     virtual RigidMotions *rigid_motions() { return nullptr; }
 
-    // Return true if its pressure is that of the fluid around, with bulk viscosity: then friction is not symmetric
+    // Return true if the boundary has the mean pressure of the fluid, bulk viscosity included: friction is not symmetric
     virtual bool has_mean_pressure() const { return true; }
 
-    // Return whether heat passes the surface; set the values of its particles in the conduction of heat, by
-    // BoundaryStage::set_heat(), or for increments of the temperatures, which are zero at the surface
+    // Return whether heat passes the surface; set the values of particles in the conduction of heat, by
+    // BoundaryStage::set_heat(), or for increments of the temperatures (zero at the surface)
 
     virtual bool gives_heat() const { return false; }
     virtual void set_heat(BoundaryStage &, const Surface *, bool /*increments*/) {}
@@ -97,8 +97,8 @@ namespace SPHDissipation {
     ~Boundary() = default;    // nobody deletes a fix through this
   };
 
-  // Interface of a fix with a buffer zone, whose particles are fluid with a prescribed state that enters or leaves.  The fix
-  // calls OpenStage::add() in its init() and remove() when it is deleted.
+  // Interface of a fix with a buffer zone: its particles have a prescribed state, and enter the fluid or have left it.  The
+  // fix calls OpenStage::add() in its init() and remove() when it is deleted.
 
   class OpenZone {
    public:
@@ -107,8 +107,8 @@ namespace SPHDissipation {
     // Return whether a particle at x may have pairs of the length reach across the border of zone and fluid
     virtual bool zone_near(const double *x, double reach) const = 0;
 
-    // Append numbers of this processor, equally many on each; set_states() gets their sums over all
-    // processors, in one message for all zones
+    // Append numbers of this processor, equally many on each; set_states() gets the sums over all processors, in one message
+    // for all zones
     virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
 
     // Set density and pressure of its owned particles by OpenStage::set_state()

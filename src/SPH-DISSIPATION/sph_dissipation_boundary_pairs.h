@@ -36,7 +36,7 @@ namespace SPHDissipation {
     std::vector<int> wall;        // boundary particle of each row
     std::vector<bigint> first;    // place of each row, and the end
 
-    // All pairs that may come into the support until the neighbor list is built anew: fluid particles, and their copies in
+    // All pairs that may come into the support before the next neighbor list: fluid particles, and their copies in
     // SurfacePairs (empty without copies); spare particles fill up a row
 
     std::vector<Offset> candidate, candidate_copy;

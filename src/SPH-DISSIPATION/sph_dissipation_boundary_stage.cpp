@@ -119,7 +119,7 @@ void BoundaryStage::run(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   Find the pairs of this step and move the surfaces; with a new neighbor list, find candidates, bodies, and surfaces before.
+   Find the pairs of this step and move the surfaces; with a new neighbor list, first find candidates, bodies, and surfaces.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::begin(NeighList *list)
@@ -156,8 +156,8 @@ void BoundaryStage::find_bodies()
 }
 
 /* ----------------------------------------------------------------------
-   Sum the number density of each body particle over the others of its body, whose pairs are not in the neighbor lists.  The
-   sums do not change until lists are built anew.
+   Sum the number density of each body particle over the other particles of its body: neighbor lists do not have these pairs.
+   The sums are constant until the next neighbor list.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::sum_bodies()
@@ -239,9 +239,9 @@ void BoundaryStage::set_frozen(int i, const double *gravity)
 }
 
 /* ----------------------------------------------------------------------
-   Return the first c of a body particle with density continuity, and set its rho_sum.  Where fluid fills the rest of the
-   support, c gives the pressure of this fluid at rest; where nothing does, c is that of the body alone, which water that
-   comes later does not compress.
+   Return the first c of a body particle with density continuity, and set its rho_sum.  If fluid fills the rest of the
+   support, c gives the pressure of this fluid at rest.  If the rest is empty, c belongs to the body alone: water that comes
+   later does not compress this particle.
 ------------------------------------------------------------------------- */
 
 double BoundaryStage::begin_frozen(int i, const double *gravity)
@@ -311,8 +311,8 @@ void BoundaryStage::note_pressures()
 }
 
 /* ----------------------------------------------------------------------
-   Set the excess of boundary particles without symmetric friction, so that pass 2 gives all heat of friction to the fluid;
-   nothing in a minimization, which has no velocities.
+   Set the excess of boundary particles without symmetric friction, so that pass 2 gives all heat of friction to the fluid.
+   A minimization has no velocities: do nothing.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::set_excess()
@@ -395,7 +395,7 @@ double BoundaryStage::stiffness(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the force of a pair.  Of a ghost, over() needs `filled`: forward it first.
+   Return the force of a pair.  For a ghost, over() needs `filled`: forward this array first.
 ------------------------------------------------------------------------- */
 
 BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
@@ -435,8 +435,9 @@ void BoundaryStage::find_surface_pairs()
 }
 
 /* ----------------------------------------------------------------------
-   Compute the sums of surface_pairs.  Copies have g = 0; boundary particles have their volume vfrac, which extend() may have
-   set to 0 for pass 2.  With u - omega x r and relative spins, differences of copies are those in the frame of the body.
+   Compute the sums of surface_pairs.  Copies have g = 0, and boundary particles the volume vfrac, since extend() may have
+   set vol = 0 for pass 2.  Copies have u - omega x r and relative spins, so that differences are those in the frame of the
+   body.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const StepNoise *noise,
@@ -471,8 +472,8 @@ void BoundaryStage::run_friction(FrictionPart part, PairTally *tally, const Step
 }
 
 /* ----------------------------------------------------------------------
-   Add forces, torques and heat of surface_pairs.  With temp energy, the loops give all heat of friction to the fluid and the
-   flow of heat to both partners; else half of the heat to each, and the fluid gets both halves here.
+   Add forces, torques and heat of surface_pairs.  With temp energy, the loops give all heat of friction to the fluid, and
+   the flow of heat to both partners.  Else the loops share the heat equally, and the fluid gets both halves here.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
@@ -495,7 +496,7 @@ void BoundaryStage::add_friction(PairTally *tally, const StepNoise &noise)
     });
   if (!directed) return;
 
-  // give the fluid the half of the heat that pass 2 gave the wall
+  // give the fluid also the half of the heat that pass 2 gave the wall
 
   run_friction(FrictionPart::BODY, nullptr, nullptr, false);
   for (const auto &own : surface_pairs)
@@ -523,7 +524,7 @@ void BoundaryStage::add_linear_friction()
 }
 
 /* ----------------------------------------------------------------------
-   Add forces and heating of the repulsion, and with noise minus the work of the pressure of walls, whose force pass 2 has.
+   Add forces and heating of the repulsion.  With noise, subtract the work of the pressure of walls, whose force pass 2 has.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::repel(PairTally *tally)
@@ -631,8 +632,8 @@ double BoundaryStage::energy(double *each_atom) const
 }
 
 /* ----------------------------------------------------------------------
-   Call add(i, energy): with noise for the pressure of walls, by pair of a fluid particle i < n and a wall particle; for the
-   repulsion, by owned fluid particle i.
+   Call add(i, energy) for the repulsion of each owned fluid particle i; with noise, also for the pressure of walls, for each
+   pair of a fluid particle i < n and a wall particle.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &add) const
@@ -830,8 +831,8 @@ void BoundaryStage::accumulate_heat()
 }
 
 /* ----------------------------------------------------------------------
-   Stop if a particle of the fluid is inside a wall: with a new neighbor list, and in each step unless LAMMPS builds lists as
-   soon as a particle has moved by half the skin.
+   Stop if a particle of the fluid is inside a wall.  Check with each new neighbor list, and in each step unless LAMMPS
+   builds lists as soon as a particle has moved by half the skin.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::check(bool found)

@@ -29,7 +29,7 @@ namespace SPHDissipation {
 
   class PairTally;
 
-  // Sets the velocity, volume, pressure and spin of boundary particles that act in the pair forces
+  // Sets velocity, volume, pressure and spin of boundary particles for the pair forces
 
   class BoundaryStage : public Stage {
    public:
@@ -59,58 +59,57 @@ namespace SPHDissipation {
     // After the pressures, before pass 2: set the values of all boundary particles
     void run(NeighList *);
 
-    // After run(): set the values again for other velocities and pressures of the fluid.  increments: the pressures are
-    // those of PressureStage::set_bulk_term(), all is linear in the velocities, and symmetric friction changes no velocity
+    // After run(): set the values again for other velocities and pressures of the fluid.  increments: pressures are set by
+    // PressureStage::set_bulk_term(), all values are linear in the velocities, and symmetric friction changes no velocity
     void extend(bool increments);
 
-    // After run() and before increments: note which particles push.  Without tension, a negative mean pressure counts as 0
+    // After run() and before increments: note which particles push: without tension, only those with a positive pressure
     void note_pressures();
 
     // After run(): set F (e.u)^2 of the pairs of fluid and boundaries, for the rates of shear
     void set_squares();
 
-    // Set the temperatures of boundary particles alone, or increments of them
+    // Set only the temperatures of boundary particles, or the increments of these temperatures
     void extend_temperatures(bool increments);
 
-    // After pass 2: add the symmetric friction of boundaries, with its noise, to the sums of the engine; the fluid gets all
-    // its heat
+    // After pass 2: add the symmetric friction of boundaries and its noise to the sums of the engine, all heat to the fluid
 
     void add_friction(PairTally *, const StepNoise &);
 
-    // Add the symmetric friction of given velocities, linear and without noise: forces and torques alone
+    // Add forces and torques of the symmetric friction at given velocities, linear and without noise
 
     void add_linear_friction();
 
-    // With thermal noise, the forces of walls on the fluid have an energy; with free surfaces, their repulsion has.  After
-    // pass 2: add the repulsion to the forces of the engine and of LAMMPS; add minus its work, with noise also minus the
-    // work of the pressure of the walls, to the heating
+    // With thermal noise, all forces of walls have an energy; with free surfaces, only the repulsion has one.  After pass 2:
+    // add the repulsion to the forces of the engine and of LAMMPS; subtract its work, and with noise also the work of the
+    // pressure of walls, from the heating
 
     void repel(PairTally *);
 
-    // This energy is no heat: after run(), where particles have temperatures, hand it to the engine, and add the work of the
-    // forces over the missing time to the internal energies.
+    // The energy of walls is not heat.  After run(), with temp energy: hand the energy to the engine, and add the work of
+    // the forces over the missing time to the internal energies
 
     void find_energies(double missing);
 
-    // After pass 1: hand these energies at the present places to the engine, without any motion
+    // After pass 1: hand the energies at the present places to the engine, without any motion
 
     void find_energies_at_rest(NeighList *);
 
-    // Add this energy to those of the particles (nullptr: to none); return its sum on this processor
+    // Add the energy of walls to the energies of particles (nullptr: to none); return its sum on this processor
 
     double energy(double *each_atom) const;
 
-    // Called by Boundary::set_boundary() for one of its owned particles.  Set volume and P/c^2 from density and pressure
-    // without bulk term; or set all values from the sums over the fluid around it.  spin = its spin in the pair forces, to
-    // be set before; nullptr without spins
+    // Called by Boundary::set_boundary() for an owned particle of the boundary.  set_state(): set volume and P/c^2 from
+    // density and pressure without bulk term.  extend_fluid(): set all values from the sums over the fluid around.  spin():
+    // return the spin in the pair forces, to be set before; nullptr without spins
 
     void set_state(int i, double rho, double pressure);
     void extend_fluid(int i, const WallCondition &, const Surface &, const BoundarySum &,
                       const double *acceleration);
     double *spin(int i) { return engine.has_spin() ? engine.spin[i].w : nullptr; }
 
-    // Set the pressure of a particle of a body as that of frozen fluid; gravity = acceleration of the fluid, read when the
-    // density begins with density continuity
+    // Give a body particle the pressure of frozen fluid.  gravity = acceleration of the fluid; density continuity reads it
+    // for the first density
 
     void set_frozen(int i, const double *gravity);
 
@@ -129,13 +128,13 @@ namespace SPHDissipation {
 
     void set_heat(int i, WallHeat, double value, const Surface &);
 
-    // After the conduction: add the heat per time of surfaces with a flux to the fluid, and take it from the boundary
+    // After the conduction: add the heat per time of surfaces with a flux to the fluid, and subtract it from the boundary
     // particles; flow = by owned and ghost atom
 
     void add_surface_heat(std::vector<double> &flow);
 
-    // Parts of run() for the sums on a device: return the surfaces of owned and ghost atoms, when the neighbor list is new,
-    // from the vectors toward the fluid of the owned boundary particles, in order; stop a run with particle i inside a wall
+    // Parts of run() for the sums on a device.  find_surface(): with a new neighbor list, return the surfaces of owned and
+    // ghost atoms from sides, the vectors toward the fluid of owned boundary particles.  stop_for(): particle i is in a wall
 
     const std::vector<Boundary *> &all() const { return boundaries; }
     const Surface *find_surface(const std::vector<double> &sides);
@@ -159,7 +158,7 @@ namespace SPHDissipation {
     std::vector<char> pushes;    // 1: the pressure of this owned particle has increments
 
     std::vector<NearKernel> near, contact;    // of boundary atoms until the list is built anew
-    // part of the contact supports of owned and ghost atoms that boundary atoms fill; not set where nothing repels
+    // part of the contact support that boundary atoms fill, of owned and ghost atoms; not set if nothing repels
     std::vector<double> filled;
 
     ThreadSums<double> filled_sums, flow_sums;
@@ -170,8 +169,8 @@ namespace SPHDissipation {
 
     std::vector<SurfacePairs> surface_pairs;    // pairs with symmetric friction, of each thread
 
-    // number of the body of each owned and ghost atom, 0: none; number density from the others of its body, of each owned
-    // atom; both empty without bodies
+    // body_of: number of the body of each owned and ghost atom, 0: none.  own_numden: number density of each owned atom from
+    // the other particles of its body.  Both empty without bodies
 
     std::vector<double> body_of, own_numden;
 
@@ -194,8 +193,8 @@ namespace SPHDissipation {
     void find_bits();
     void begin(NeighList *);
 
-    // Force on the fluid particle of a pair along r, times 1/r: by the pressure of the wall, 0 unless that has an energy,
-    // and by the repulsion; approach = -r.u
+    // Force on the fluid particle of a pair along r, over r.  pressing: by the pressure of the wall, 0 unless this pressure
+    // has an energy.  repulsion: by the repulsion.  approach = -r.u
 
     struct WallForce {
       double r[3], approach, pressing, repulsion;

@@ -36,10 +36,10 @@ template <class Real> SPH_INLINE Real height_above(const Surface &s, const Real 
   return larger(-s.depth - along(s.normal, r), Real() + CLOSEST * s.spacing);
 }
 
-// Return the factor of symmetric friction, (d + h)/d, with the distances d of f and h of w from the surface: the friction
-// with the velocity of the body, times this factor, is that with the continuation behind the surface, -h times the slope, of
-// a velocity that is zero at the surface and linear in d.  If the surface is not known, d is that of the first layer of a
-// lattice.
+// Return the factor of symmetric friction, (d + h)/d, with the distances d of f and h of w from the surface.  A velocity
+// that is linear in d and zero at the surface continues behind the surface as -h times the slope.  Friction with this
+// continuation is friction with the velocity of the body, times the factor.  Unknown surface: d is that of the first layer
+// of a lattice.
 
 template <class Real>
 SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)

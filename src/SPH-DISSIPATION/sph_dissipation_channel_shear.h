@@ -35,9 +35,9 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 // -a F V_i V_j (u.r) r
 typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
 
-// AlongR or, with FR2, AlongRBySquare, with mu of both particles: the arithmetic mean within a fluid, for which a
-// dissipation function exists; the harmonic mean between two fluids; next to a boundary (mu < 0) mu of the fluid.
-// ONE_FLUID: no pair has two fluids
+// AlongR or, with FR2, AlongRBySquare, with a mean of mu of both particles: within a fluid, the arithmetic mean, which has a
+// dissipation function; between two fluids, the harmonic mean; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: no
+// pair has two fluids
 template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;
@@ -80,9 +80,8 @@ namespace SPHDissipation {
   // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
   //                                                           026705 (2003), with bulk term zero
   // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
-  // micropolar mg/fr2: the term with zeta1 is that of mg/fr2 where zeta1 > 0.  A negative zeta1 keeps the weight of zeta2,
-  // for
-  //                    which it is admissible.
+  // micropolar mg/fr2: if zeta1 > 0, the term with zeta1 is the term of mg/fr2.  A negative zeta1 keeps the weight of zeta2:
+  // with this weight it is admissible.
 
   // Return the prefactor of the shear term per mu, in dimension n; mean_radius, mean_square = integrals of r W and r^2 W
   inline double shear_factor(Shear shear, int n, double mean_radius, double mean_square)

@@ -28,9 +28,9 @@
 // P3 = Souto-Iglesias, Bonet Avalos, Antuono, Colagrossi, SPHERIC 2022; Phys. Rev. E 104, 015315
 //      (2021)
 //
-// The headers of the channels have parts, as the headers of LAMMPS's styles.  With CHANNEL_CLASS: the line in the list.
-// With CHANNEL_TERMS: the terms of a pair, for the loops, which include them in more than one namespace.  With
-// OPTIONAL_TERMS: the names of the terms that any form of the shear force may have.  Without: all else.  No LAMMPS include.
+// The header of a channel has four parts; a macro selects one.  CHANNEL_CLASS: the name of the channel in the list.
+// CHANNEL_TERMS: the terms of a pair; the loops include these in more than one namespace.  OPTIONAL_TERMS: the names of the
+// terms that any form of the shear force may have.  None of the three: the struct of the channel.  No LAMMPS include.
 
 #ifdef CHANNEL_TERMS
 
@@ -46,7 +46,7 @@ template <class... Term> struct Form {
   static constexpr bool SPINS = (Term::SPINS || ...);
   static constexpr bool BY_RATE = (Term::BY_RATE || ...);
 
-  // Return whether a term heats this channel; bits of all heated channels; the last channel of a term with spins
+  // Return whether a term heats this channel; return the bits of all heated channels; return the last channel with spins
   static SPH_INLINE constexpr bool heats(int channel)
   {
     return ((channel == Term::CHANNEL) || ...);
@@ -77,8 +77,8 @@ template <class... Term> struct Form {
   }
 };
 
-// Forms with all optional terms, for runs that use any of them, and for the form espanol, which has all other terms of
-// fluids without spins.
+// Forms with all optional terms, for runs with any of these terms.  The form espanol has all other terms of fluids without
+// spins, and also uses FullForm.
 #undef CHANNEL_TERMS
 #define OPTIONAL_TERMS
 #define OptionalTerm(One) , One
@@ -149,15 +149,15 @@ template <class Function> void with_form(const Terms &terms, Function &&function
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Name by which another command may vary a coefficient of a type; coefficient = its number in the channel.  In the second
-  // and later groups of a keyword, the number of the group follows the name.
+  // Name for other commands that vary a coefficient of a type; coefficient = its number in the channel.  In the second and
+  // later groups of a keyword, the number of the group follows the name.
   struct TypeVariable {
     const char *name;
     int coefficient;
   };
 
-  // Friction tensor of a pair, in units of F V_i V_j (mg/fr: F r V_i V_j): for the velocity of slip and the difference of
-  // the spins, along and across e; for terms with BY_SQUARE, along e in units of F r^2 V_i V_j.  The noise is its root.
+  // Friction tensor of a pair along and across e, for the velocity of slip and for the difference of the spins, in units of
+  // F V_i V_j (mg/fr: F r V_i V_j); along_by_square: in units of F r^2 V_i V_j.  The noise is the root of this tensor.
   struct PairFriction {
     double along, across, spin_along, spin_across, along_by_square;
   };
@@ -170,18 +170,18 @@ namespace SPHDissipation {
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
-    // if mu of any type is not constant: both types are one fluid; the largest mu, and the largest |zeta|
+    // by_rate: mu of any type is not constant.  Then alike: both types are one fluid; largest mu, and largest |zeta|
     bool by_rate = false, alike = false;
     double largest_mu = 0.0, largest_zeta = 0.0;
   };
 
-  // Coefficients from pair_coeff for one channel: of a type, or the larger ones of two types; of two unlike types
+  // Coefficients from pair_coeff for one channel.  type: of a type, or the larger ones of two types; unlike: of unlike types
   struct OwnWords {
     const double *type, *unlike;
     double flow = 0.0;    // mean coefficient of the flow of the channel
   };
 
-  // Inertia of the motion that a channel damps, for its fastest rate
+  // Inertia of the motion that a channel damps, for the rate of the fastest mode
   struct PairInertia {
     double hsq = 0.0;            // square of the stability length, see stability_length_squared()
     double rho = 0.0;            // density: inertia of velocities
@@ -198,27 +198,26 @@ namespace SPHDissipation {
   // Defaults of the members of a channel
   struct BaseChannel {
     static constexpr bool SPINS = false;    // needs particles that spin
-    // stores energy: has no rate of its own, but belongs to the sound
+    // stores energy: the channel has no rate, but raises the speed of sound
     static constexpr bool ELASTIC = false;
-    // turns motion into heat, a number of compute sph/dissipation
+    // turns motion into heat: compute sph/dissipation has a number for the channel
     static constexpr bool OF_MOTION = true;
-    // if all its coefficients of pairs are 0, the loops leave out its terms, and the table its columns
+    // true: if all coefficients of pairs are 0, the loops leave out the terms, and the table leaves out the columns
     static constexpr bool OPTIONAL = false;
-    // has an energy of pairs of unlike types, and waves: pair_energy(), wave_step()
+    // pairs of unlike types have an energy, see pair_energy(), and the interface has waves, see wave_step()
     static constexpr bool PAIR_ENERGY = false;
-    // Words of pair_coeff: keywords of a type, with NTYPE coefficients in all; names by which other commands may vary them;
-    // keywords of unlike types, each with one number, 0 if not given, which other commands may vary by the same name
+    // Keywords of pair_coeff for a type, with NTYPE coefficients in all; names for other commands that vary these; keywords
+    // of unlike types, each with one number (default 0), which are also the names for other commands
     static constexpr int NTYPE = 0;
     static constexpr std::array<TypeKeyword, 0> TYPE_KEYWORDS = {};
     static constexpr std::array<TypeVariable, 0> TYPE_VARIABLES = {};
     static constexpr std::array<const char *, 0> UNLIKE_KEYWORDS = {};
-    // Return the inequality that the coefficients of a type, in a box of this dimension, or of a pair of types violate, or
-    // nullptr; return the name of ignored coefficients of a type, or nullptr
+    // Return the inequality that the coefficients of a type violate in a box of this dimension; return the inequality that a
+    // pair of types violates; return the name of ignored coefficients of a type.  nullptr: there is none
     static const char *inadmissible_type(const double *, int) { return nullptr; }
     static const char *inadmissible(const PairFluid &, const OwnWords &) { return nullptr; }
     static const char *ignored(const double *) { return nullptr; }
-    // Number of the coefficients of its terms for a pair of types; set these coefficients, own; add their friction tensor,
-    // for the noise
+    // NPAIR: number of coefficients for a pair of types.  Set these coefficients, own; add their friction tensor
     enum { NPAIR };
     static void set_coefficients(const PairFluid &, const OwnWords &, double *) {}
     SPH_FUNCTION static void add_friction(const double *, PairFriction &) {}
@@ -235,7 +234,7 @@ namespace SPHDissipation {
       return 0.0;
     }
 
-    // Return a of the energy of a pair, a w_i w_j W(r) with W of PairEnergyKernel; return its largest stable time step
+    // Return a in the energy of a pair, a w_i w_j W(r), W of PairEnergyKernel; return the largest stable step of the waves
     static double pair_energy(const PairFluid &, const OwnWords &) { return 0.0; }
     static double wave_step(const OwnWords &, const PairInertia &) { return UNLIMITED_STEP; }
 
@@ -251,8 +250,8 @@ namespace SPHDissipation {
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // The list of the channels.  Each channel has a NAME, the title of its time step in the table of the log, and the members
-  // of BaseChannel; its terms, in the other part of its header, derive from PairTerm.
+  // The list of the channels.  Each channel has the members of BaseChannel, and a NAME: the title of its time step in the
+  // table of the log.  The terms of a channel derive from PairTerm.
   template <class Base, class... One> struct ChannelList {
     // Return the sum of number[k] over the channels before Channel
     template <class Channel>
@@ -264,13 +263,13 @@ namespace SPHDissipation {
       return sum;
     }
 
-    // Number of channels that turn motion into heat; place of a channel among them
+    // Number of channels that turn motion into heat; return the place of a channel among these
     static constexpr int NUMBER = ((One::OF_MOTION ? 1 : 0) + ...);
     template <class Channel> SPH_FUNCTION static constexpr int place()
     {
       return sum_before<Channel>({One::OF_MOTION...});
     }
-    // Numbers of coefficients of pairs of types, of types, and of unlike types; first coefficient of a channel among them
+    // Numbers of coefficients of pairs of types, of types, and of unlike types; return the first coefficient of a channel
     static constexpr int NPAIR = (One::NPAIR + ...), NTYPE = (One::NTYPE + ...);
     static constexpr int NUNLIKE = (static_cast<int>(One::UNLIKE_KEYWORDS.size()) + ...);
     template <class Channel> SPH_FUNCTION static constexpr int first()
@@ -303,8 +302,8 @@ namespace SPHDissipation {
       return (One::drag(type + first_of_type<One>()).b + ...);
     }
 
-    // Add the drag of a particle of volume vol and velocity u to its force and, by channel, to its heat per time; linear:
-    // relative to rest instead of the stream
+    // Add the drag of a particle of volume vol and velocity u to the force and, by channel, to the heat per time.  linear:
+    // the drag is relative to rest instead of the stream
     SPH_FUNCTION static void add_drag(const double *type, double vol, const double *u, bool linear,
                                       double *force, double *heat)
     {
@@ -345,7 +344,7 @@ namespace SPHDissipation {
 
   constexpr int NCHANNEL = Channels::NUMBER;    // channels that turn motion into heat
 
-  // Place of the heat of the bulk term, which is no term of pairs
+  // Place of the heat of the bulk term.  This term is not a term of pairs
 
   constexpr int BULK_HEAT = Channels::place<BulkChannel>();
 
@@ -355,8 +354,8 @@ namespace SPHDissipation {
   // Coefficients of the terms of two types, one channel after the other:
   //   f_i = -sum_j F V_i V_j [along_r (e.u) e + along_u u + zeta2 u*]
   //   tau_i = 1/2 sum_j F V_i V_j zeta2 r x u* - sum_j F V_i V_j [xi1 (e.dOmega) e + xi2 dOmega]
-  // with F r instead of F before along_r for mg/fr, a term F r^2 V_i V_j by_square (e.u) e for mg/fr2, and the coefficients
-  // of optional terms, see their headers
+  // mg/fr has F r instead of F before along_r; mg/fr2 has a term F r^2 V_i V_j by_square (e.u) e.  The coefficients of
+  // optional terms follow, see the headers of these channels
   struct PairCoeff {
     double a[Channels::NPAIR];
 
@@ -417,8 +416,8 @@ namespace SPHDissipation {
     return all;
   }
 
-  // Return the names by which other commands may vary coefficients of a type, with their places in TypeCoeffs; of groups in
-  // the order of their numbers
+  // Return the names for other commands that vary coefficients of a type, with the places in TypeCoeffs; groups are in the
+  // order of their numbers
   inline std::vector<std::pair<std::string, int>> type_variables()
   {
     std::vector<std::pair<std::string, int>> all;

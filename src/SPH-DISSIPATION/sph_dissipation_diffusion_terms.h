@@ -20,18 +20,18 @@
 //
 // with the acoustic impedance Z = rho0 c0 and h = rc/2.  g is the gradient of the pressure: it minimizes the residual
 //   R_i = sum_j a_ij V_j (p_i - p_j - g_i.r_ij)^2.
-// No pair changes the sum of the volumes.  The elastic energy of the particles loses sum_i V_i R_i/2 per time, which
-// becomes heat: V_i R_i/2 of particle i.  The minimum is that of the same weights a_ij V_j with which volume flows, else
-// the heat could be negative.  The gradient makes hydrostatic pressure exact: M. Antuono et al., Comput. Phys. Commun.
-// 181, 532 (2010), in variables that conserve volume and have a known heat.
+// No pair changes the sum of the volumes.  The elastic energy of the particles decreases by sum_i V_i R_i/2 per time; this
+// energy becomes heat, V_i R_i/2 of particle i.  The residual has the weights a_ij V_j of the flow of volume: with other
+// weights, the heat could be negative.  The gradient makes hydrostatic pressure exact, as M. Antuono et al., Comput. Phys.
+// Commun. 181, 532 (2010); the variables here conserve volume and have a known heat.
 
 #include "sph_dissipation_tensor.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // What the loops read of a particle, one cache line.  Volume 0: it takes no part.  Numbers in their places are, in one
-  // and two dimensions, x y V p, gradient; in three, x y z V, p gradient
+  // Input of the loops for a particle, one cache line.  Volume 0: the particle takes no part.  The order of the numbers is,
+  // in one and two dimensions, x y V p, gradient; in three, x y z V, p gradient
 
   struct alignas(64) DiffusionRow {
     double a[8] = {};
@@ -39,8 +39,8 @@ namespace SPHDissipation {
 
   template <int DIM> struct DiffusionPlaces {
     static constexpr int VOL = (DIM == 3) ? 3 : 2, P = VOL + 1, G = P + 1;
-    // sum a V r r by rows of its upper half, sum a V (p_i - p_j) r; with two impedances, what the first one times Z lacks of
-    // sum V F r r
+    // sum a V r r by rows of the upper half; sum a V (p_i - p_j) r; with two impedances, sum V F r r less Z times the first
+    // sum
     static constexpr int NTENSOR = DIM * (DIM + 1) / 2, NSUM = NTENSOR + DIM;
   };
   struct alignas(64) SumBlock {
@@ -55,7 +55,7 @@ namespace SPHDissipation {
     return size_of_tensor(dim) * (alike ? 1 : 2) + dim;
   }
 
-  // of the rows of sums; alike: of impedance
+  // Return the width of the rows of sums; alike: all particles have the same impedance
 
   constexpr int width_of_sums(int dim, bool alike)
   {
@@ -67,9 +67,9 @@ namespace SPHDissipation {
     const double *impedance;    // Z of each particle; not read if it is the same for all
   };
 
-  // rate of the diffusion, its fastest mode, of the largest rho0 c^2 and the mean impedance of two fluids; h and
-  // stability_length_squared() as for the channels.  7 delta c0/h for one fluid with Wendland's C2; measured on
-  // square, hexagonal, and cubic lattices
+  // Return the rate of the fastest mode of the diffusion; stiffness = largest rho0 c^2, impedance = mean of two fluids; h
+  // and stability_length_squared() as for the channels.  7 delta c0/h for one fluid with Wendland's C2; measured on square,
+  // hexagonal, and cubic lattices
 
   inline double diffusion_rate(double delta, double h, double hsq, double stiffness,
                                double impedance)
@@ -77,9 +77,9 @@ namespace SPHDissipation {
     return 7.0 * delta * h / hsq * stiffness / impedance;
   }
 
-  // Gradient of the pressure from the sums of a particle.  filled = sum_j V_j F r r, the tensor of these sums without the
-  // impedances.  Returns the smallest eigenvalue of it, which is 1 inside of all fluids.  Where that is near zero, neighbors
-  // are too few, or on one line or plane: the gradient is zero there.
+  // Set the gradient g of the pressure from the sums of a particle.  filled = sum_j V_j F r r, the tensor of the sums
+  // without impedances.  Return the smallest eigenvalue of filled, 1 inside of all fluids.  If it is near zero, neighbors
+  // are too few, or on one line or plane: set the gradient to zero.
 
   constexpr double LEAST_SUPPORT = 0.01;
 
@@ -92,8 +92,8 @@ namespace SPHDissipation {
     return smallest;
   }
 
-  // Rates of the volume of a particle and, with the work, of its internal energy, from its row at the place of the volume,
-  // and its sums of the flow; factor = that of a_ij which the loops leave out
+  // Set the rates of the volume of a particle and, work included, of its internal energy.  row = its row from the volume on;
+  // flow = its sums of the flow; factor = factor of a_ij that the loops leave out
 
   SPH_FUNCTION void volume_rates(const double *row, const double *flow, double factor, double &rate,
                                  double &heat)

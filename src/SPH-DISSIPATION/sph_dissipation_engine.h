@@ -119,8 +119,8 @@ namespace SPHDissipation {
     int n;
   };
 
-  // Bounds for the squares of the distances of candidates from a place: close ones are below close, far ones from there to
-  // bound; below safe, rounding errors cannot move a candidate out of the reach
+  // Bounds for the squares of the distances of candidates from a place.  Close candidates are below close, far candidates
+  // between close and bound; below safe, rounding errors cannot move a candidate out of the reach
 
   struct Reach {
     float close, safe, bound;
@@ -285,7 +285,7 @@ namespace SPHDissipation {
     // Draw count random numbers for each of the first n atoms: number k of atom i is numbers[k * (n + BLOCK) + i]
     void draw_numbers(const NoiseData &, NoiseChannel, int n, int count, double *numbers);
 
-    // Sum as accumulate_forces() without noise, linear in the velocities: without the streams of the drag
+    // Sum as accumulate_forces(), but without noise and linear in the velocities: the streams of the drag are 0
     void accumulate_friction(NeighList *, int not_fluid);
 
     // After pass 2: sum the friction of the pairs in these rows, with these slopes and the noise of surfaces (nullptr:
@@ -334,8 +334,8 @@ namespace SPHDissipation {
         function(i, index_of(data.neighbor[entry]), entry);
     }
 
-    // Sum over these pairs on all threads, each with its rows of the neighbor list: function(i, j, entry, sum) adds to
-    // sum[0] ... sum[n - 1], which are total or will be added to total
+    // Sum over these pairs on all threads, each with its rows of the neighbor list.  function(i, j, entry, sum) adds to
+    // sum[0] ... sum[n - 1]; sum is total, or is added to total later
     template <class Row, class Function>
     void sum_pairs(ThreadSums<Row> &row_sums, Row *total, std::size_t n, Function &&function) const
     {
@@ -381,7 +381,7 @@ namespace SPHDissipation {
     int body_bits = 0;
     bool keeps_bodies = false;
     double *divergence =
-        nullptr;    // of the velocity, -sum_j V_j F r_ij.u_ij; from pass 2, bulk volume only
+        nullptr;    // -sum_j V_j F r_ij.u_ij, divergence of the velocity; bulk volume only, by pass 2
     Spin *spin = nullptr;    // micropolar only
 
    private:

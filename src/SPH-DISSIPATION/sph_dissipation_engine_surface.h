@@ -25,10 +25,9 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Pairs of fluid and boundary particles of one thread, for whose friction and noise the loops of pass 2 run separately:
-  // each pair has its own slope, in the frame of the rigid body of the boundary.  So the loops read copies: of spare
-  // particles; of boundary particles; of fluid particles, one for each body near them.  Engine::accumulate_friction() runs
-  // the loops.
+  // Pairs of fluid and boundary particles of one thread with separate runs of the loops of pass 2, for friction and noise:
+  // each pair has its own slope, in the frame of the rigid body of the boundary.  The loops read copies: of spare particles;
+  // of boundary particles; of fluid particles, one for each body near them.  Engine::accumulate_friction() runs the loops.
 
   class SurfacePairs {
    public:

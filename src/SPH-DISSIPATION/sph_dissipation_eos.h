@@ -24,7 +24,7 @@
 //   tait    p_el = rho0 c_el^2 / gamma [(rho/rho0)^gamma - 1] + pb_el
 //   ideal   p_el = pb,   Gamma = gamma - 1
 //
-// Without tension, p_el is 0 below rho_min, the density without pressure, and e_el is there that of rho_min.
+// Without tension, p_el is 0 below rho_min, the density without pressure; there e_el is constant, e_el(rho_min).
 //
 // elastic_energy() is the energy e_el per mass from which p_el follows, p_el = rho^2 de_el/drho, zero at rho0.
 
@@ -75,8 +75,8 @@ namespace SPHDissipation {
     return (power > 0.0) ? par.rho0 * std::pow(power, 1.0 / par.gamma) : 0.0;
   }
 
-  // Set what follows from c0, pb, gamma, Grueneisen's constant (read for linear and tait), and the heat per mass cv T0 at
-  // the reference temperature; c_el is NaN if the heat alone makes sound faster than c0.
+  // Set gruneisen, c_el, pb_el, and rho_min from c0, pb, gamma, Grueneisen's constant (read for linear and tait), and the
+  // heat per mass cv T0 at the reference temperature; c_el is NaN if the heat alone makes sound faster than c0.
 
   inline void EosParams::derive(Eos eos, double gruneisen_in, double reference_heat, bool tension)
   {

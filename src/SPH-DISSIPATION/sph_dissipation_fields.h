@@ -58,8 +58,8 @@ namespace SPHDissipation {
     double **omegaest =
         nullptr;    // spin at the end of the step, extrapolated; nullptr without spins
 
-    // States of channels, by place in the list States; nullptr without room.  0: new particle.  Negative: minus the ratio of
-    // a StateKind::STRAIN to the density that the next forces find; or -1, from a data file: the number is in the column of
+    // States of channels, by place in the list States; nullptr without room.  0: new particle.  Negative, STRAIN: minus the
+    // ratio of the state to the density that the next forces find.  -1, from a data file: the number is in the column of
     // another channel
     double *state[MOST_STATES] = {};
     std::vector<int> slots;    // places with room
@@ -67,17 +67,17 @@ namespace SPHDissipation {
     int room(const StateInfo &) const;    // number of states of a channel with room
     static std::string state_name(int slot);
 
-    // Density continuity: rho_sum is the sum in rho at the last forces, negative for bodies, see ParticleRows::add_offset();
-    // 0 before the first sum (a new particle also has rho = 0, which means rho0).  Last evaluation of the diffusion: rates
-    // of volume and internal energy, filled part of the support, 1 inside of the fluid; rate of the volume before
+    // Density continuity.  rho_sum: the sum in rho at the last forces, negative for bodies, see ParticleRows::add_offset();
+    // 0: no sum yet (a new particle also has rho = 0, which stands for rho0).  Last evaluation of the diffusion: rates of
+    // volume and internal energy, filled part of the support (1 inside of the fluid); rate of the volume before
     double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
     double *vol_heat = nullptr, *vol_support = nullptr;
     double *shear_rate =
         nullptr;    // rate of shear at the last forces, if any viscosity depends on it; else 0
     bool density_in_files = false;    // data files have a column rho
 
-    // At the end of a run or minimization: the trace of each particle, 0 of particles without; the number of particles with
-    // a trace, the largest extent of the box, a hash of the box, the step
+    // At the end of a run or minimization: the trace of each particle (0: none); number of particles with a trace, largest
+    // extent of the box, hash of the box, step
     double **trace = nullptr;
     struct {
       bigint number = 0;    // 0: there was no run

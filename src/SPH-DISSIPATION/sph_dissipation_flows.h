@@ -14,10 +14,10 @@
 #ifndef LMP_SPH_DISSIPATION_FLOWS_H
 #define LMP_SPH_DISSIPATION_FLOWS_H
 
-// Flows of amounts Q between particles by the differences of a value q, as heat by the temperature.  Particle i gets
+// Flows of amounts Q between particles by the differences of a value q, such as heat by the temperature.  Particle i gets
 //   dQ_i/dt = sum_j 2 k_ij F V_i V_j (q_j - q_i),   k_ij = 2 k_i k_j/(k_i + k_j)
-// with the coefficients k: the Laplacian of the form morris with q instead of u.  With the harmonic mean, the flow through a
-// plane between two materials is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148, 227 (1999).
+// with the coefficients k: the Laplacian of the form morris with q instead of u.  With the harmonic mean, the flow through
+// an interface is the same from both sides, P. W. Cleary, J. J. Monaghan, J. Comput. Phys. 148, 227 (1999).
 // No pair changes the sum of Q.  A channel with a flow also derives from BaseFlow; FlowList has all flows, and all other
 // code uses FlowList.  No LAMMPS include.
 

@@ -191,8 +191,8 @@ void Fluid::check_setup()
 }
 
 /* ----------------------------------------------------------------------
-   Set TypeCoeff::other of the types of other styles of pair_style hybrid, which may also have got types that have
-   coefficients here; stop if this style acts between such a type and another one.
+   Set TypeCoeff::other of the types of other styles of pair_style hybrid, even if a type also has coefficients here; stop if
+   this style acts between such a type and another one.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_own_types()
@@ -328,7 +328,7 @@ bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 {
   sum_density();
 
-  // the noise needs the bound of the limit for the volumes of its pairs: set the volumes of walls before the bound
+  // The noise needs the bound of the limit with the volumes of walls: set these volumes before the bound
 
   const bool walls = !boundary->empty();
   const Constants &par = model->constants();
@@ -345,8 +345,8 @@ bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
 }
 
 /* ----------------------------------------------------------------------
-   Set viscosities that are not constant: from the rates of shear of the present velocities (find_rates), or from those that
-   the particles keep.  For the rates, boundary particles have the velocity of the extended fluid; then their own again.
+   Set viscosities that are not constant, from the rates of shear of the present velocities (find_rates), or from the rates
+   that the particles keep.  For the rates, boundary particles have the velocity of the extended fluid; later their own.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_viscosities(bool find_rates)
@@ -397,8 +397,8 @@ void Fluid::sum_density()
 }
 
 /* ----------------------------------------------------------------------
-   Return the time over which internal energies lack the work of the pressure.  In a step, energies are half a step behind,
-   and their last rate has velocities of half a step before, unless NoiseStage::share_work() corrects it.
+   Return the time for which internal energies lack the work of the pressure.  In a step, energies are half a step behind.
+   Their last rate has the velocities of half a step before, unless NoiseStage::share_work() corrects the rate.
 ------------------------------------------------------------------------- */
 
 double Fluid::missing_time() const
@@ -551,8 +551,8 @@ double Fluid::received_heat(int groupbit) const
 }
 
 /* ----------------------------------------------------------------------
-   Solve for the implicit velocities.  The matrix is not symmetric with friction that is extended behind walls and with
-   the form P1 (64), bulk volume.
+   Solve for the implicit velocities.  The matrix is not symmetric if walls extend the velocity of the fluid, or with the
+   form P1 (64), bulk volume.
 ------------------------------------------------------------------------- */
 
 void Fluid::find_viscous_velocity(StepPlan &plan)
@@ -578,8 +578,8 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   Evaluate the diffusion of volume, if its interval is over, and add its heat; nothing in a minimization.  A run that
-   continues the last one with the same coefficients keeps the rates of the last one.
+   Evaluate the diffusion of volume, if its interval is over, and add its heat.  Do nothing in a minimization.  A run that
+   continues the last run with the same coefficients keeps the rates of the last run.
 ------------------------------------------------------------------------- */
 
 void Fluid::sum_diffusion()
@@ -732,8 +732,8 @@ bool Fluid::checks_speed() const
 
 /* ----------------------------------------------------------------------
    Warn once if over 10 % of the particles are faster than a limit at two successive neighbor lists: 0.1 c0 with density
-   continuity, where the density then varies by over 1 %, else 0.3 c0, 5 %, which flows with sound may reach.  Single drops
-   of spray do not count.  Without walls and open ends, speeds are relative to the center of mass.
+   continuity (the density varies by 1 %), else 0.3 c0 (5 %, as in flows with sound).  Single drops of spray do not count.
+   Without walls and open ends, speeds are relative to the center of mass.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_speed()
@@ -906,8 +906,8 @@ void Fluid::report()
 }
 
 /* ----------------------------------------------------------------------
-   Warn of a shear elasticity of the arrangement.  A fluid at rest, unless it has noise, is checked again after a time,
-   look_after.  Shifting prevents such an elasticity.
+   Warn of a shear elasticity of the arrangement.  Check a fluid at rest again after the time look_after, unless it has
+   noise.  Shifting prevents such an elasticity.
 ------------------------------------------------------------------------- */
 
 void Fluid::check_elasticity(FluidState &state)
@@ -920,8 +920,8 @@ void Fluid::check_elasticity(FluidState &state)
 }
 
 /* ----------------------------------------------------------------------
-   Return the line of the log about the fastest skin; empty with noise, since thermal motion goes to and fro, and for lists
-   that do not depend on how far particles have moved.
+   Return the line of the log about the fastest skin.  The line is empty with noise, since thermal motion goes to and fro,
+   and if new lists do not depend on how far particles have moved.
 ------------------------------------------------------------------------- */
 
 std::string Fluid::skin_text(const CoeffTable &table) const
@@ -1004,9 +1004,9 @@ void Fluid::check_time_step(const CoeffTable &table)
    that needs the largest stable time step calls this function.  Of each type it takes the fastest particle, walls included,
    with the speed of sound at its density and energy, and the smallest density of the fluid.  A type without particles
    counts with its coefficients.
-   A heavy body pushes light fluid with its own modulus: its sound counts as that in the light fluid, times 1/2 for the half
-   of the kernel that the body fills.  Walls act with the pressure of the fluid and do not move by it: neither the speed of
-   sound nor the density of their type counts.
+   A heavy body pushes light fluid with its own modulus: its sound counts as sound in the light fluid, times 1/2, since the
+   body fills half of the kernel.  Walls act with the pressure of the fluid, and the pressure does not move walls: neither
+   the speed of sound nor the density of their type counts.
 ------------------------------------------------------------------------- */
 
 CoeffTable Fluid::coeff_table()

@@ -54,10 +54,10 @@ namespace SPHDissipation {
   class ViscosityStage;
   class ViscousStage;
 
-  // Particle fluid with independent shear and bulk viscosity: pressure of an equation of state,
-  // viscous forces between pairs, and a bulk force from the rate of change of the particle volume.
-  // Owns the settings, the pair loops, and the stages around the loops, and runs the stages in their order.  The pair style
-  // is the interface of LAMMPS to this class; fixes and computes call find_fluid().
+  // Particle fluid with independent shear and bulk viscosity.  Forces: pressure of an equation of state, viscous forces
+  // between pairs, and a bulk force from the rate of change of the particle volume.  This class owns the settings, the pair
+  // loops, and the stages around the loops, and runs the stages in their order.  The pair style is the interface of LAMMPS
+  // to this class; fixes and computes call find_fluid().
 
   class Fluid : protected Pointers {
    public:
@@ -86,8 +86,8 @@ namespace SPHDissipation {
     const std::unique_ptr<PairEnergyStage> pair_energies;
 
    public:
-    // Stages that fixes call directly.  A boundary or an open zone stays registered until its fix is deleted, maybe with a
-    // fluid that another one has replaced.
+    // Stages that fixes call directly.  A boundary or an open zone stays registered until its fix is deleted, even if
+    // another fluid has replaced this one.
 
     const std::unique_ptr<OpenStage> open;
     const std::unique_ptr<BoundaryStage> boundary;
@@ -96,8 +96,8 @@ namespace SPHDissipation {
     const std::unique_ptr<ViscousStage> viscous;
     const std::unique_ptr<TemperatureStage> temperature;    // implicit conduction
 
-    // Called by the pair style: for its commands; init() at the start of every run; derive_anew() after another command has
-    // changed coefficients: the next adopt() derives the parameters
+    // Called by the pair style.  settings(), coeff(): for its commands; init(): at the start of every run; derive_anew():
+    // after another command has changed coefficients, so that the next adopt() derives the parameters
 
     void settings(int narg, char **arg);
     void coeff(int narg, char **arg);
@@ -108,19 +108,19 @@ namespace SPHDissipation {
     Exchange &messages() const { return *exchange; }    // packs the messages of the pair style
     virtual double memory_usage() const;                // bytes
 
-    // Add the forces to those of LAMMPS, with a tally of each pair or nullptr; return the number of particles on this
-    // processor that are beyond the bound of the limit
+    // Add the forces to the arrays of LAMMPS, with a tally of each pair or nullptr; return the number of owned particles
+    // beyond the bound of the limit
 
     virtual bigint compute(PairTally *);
 
-    // Called by the integrator when a run begins; dt = the time step that has left the states, Changes since the last run
+    // Called by the integrator when a run begins; dt = time step of the states; Changes since the last run
 
     virtual void begin_run(double dt, bool continues, const Changes &);
-    // With density continuity: keep the densities of owned particles at the next forces, whose sums change not by motion,
-    // but by particles that come, go, split, or merge
+    // With density continuity: keep the densities of owned particles at the next forces.  The sums of these forces change
+    // not by motion, but by particles that come, go, split, or merge
     void keep_densities();
 
-    // Steps between two evaluations of the diffusion of volume; true if the last forces have evaluated it
+    // Return the interval of the diffusion of volume, in steps; return true if the last forces have evaluated the diffusion
     int diffusion_interval() const;
     bool diffusion_is_new() const;
     void begin_step(double dt);    // advances the states
@@ -129,18 +129,18 @@ namespace SPHDissipation {
     bool has_shifted() const { return shifted; }    // in this step
     virtual void shift_particles(double keep);
 
-    // Return the potential energy of the last forces, on this rank; add it to those of particles (nullptr: to none)
+    // Return the potential energy of the last forces on this rank; add it to the energies of particles (nullptr: to none)
 
     double energy(double *each_atom) const;
 
-    // Return the energy of the equation of state alone, on this processor: of the last forces, or of the present places of
+    // Return the energy of the equation of state alone, on this processor: at the last forces, or at the present places of
     // the particles and their ghosts
 
     enum Moment { LAST_FORCES, NOW };
     virtual double elastic_energy(Moment);
 
-    // Return whether any two unlike types have an energy of their pairs; return this energy of the last forces, on this
-    // processor, of the particles of a group, half of each pair
+    // Return whether pairs of any two unlike types have an energy; return this energy at the last forces, on this processor,
+    // for the particles of a group, half of each pair
 
     bool has_pair_energy() const;
     double pair_energy(int groupbit) const;
@@ -149,16 +149,15 @@ namespace SPHDissipation {
 
     double state_energy(int groupbits) const;
 
-    // Get the temperatures of owned particles from their present densities and energies; 0 of particles without heat
-    // capacity, and of walls.  Set the temperatures of particles of a group and of its open zones, at their present places,
-    // by function(particle); stop, with a message in the name of the user, if a temperature is negative or a type has no
-    // heat capacity.
+    // temperatures(): get the temperatures of owned particles from the present densities and energies; particles without
+    // heat capacity and walls have 0.  set_temperatures(): set the temperatures of the particles of a group and of its open
+    // zones, at the present places, by function(particle).  Stop if a temperature is negative or a type has no heat
+    // capacity, with a message that names the user.
 
     void temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
-    // Values of the last forces: heating, see ForceStage::heating(); forces and torques on owned particles, without those of
-    // other styles
+    // Values of the last forces: heating, see ForceStage::heating(); forces and torques of this style on owned particles
 
     bool
     has_forces() const;    // on all processors, for the particles that are there now; all must call
@@ -168,16 +167,16 @@ namespace SPHDissipation {
     const ForceSum *own_forces() const;
     const double *own_torque(int i) const;
 
-    // Called by the integrator at the start of a run.  Multiply the masses of a group by a factor for each type that makes
-    // its mean density rho0; find the volumes from the positions alone; check and warn of the particles as they enter the
-    // first step, and log the table of viscosities, coefficients, and time steps if the coefficients are new
+    // Called by the integrator at the start of a run.  set_mean_density(): multiply the masses of a group by a factor for
+    // each type, so that the mean density is rho0.  Then: find the volumes from the positions alone; check the particles as
+    // they enter the first step, and warn; log the table of viscosities and time steps if the coefficients are new
 
     void set_mean_density(int groupbit);
     void find_volumes();
     void announce();
 
-    // Before the first forces of a run that may continue the last one: note that one of the integrators begins anew, or, on
-    // any rank, that walls or open ends move in another way
+    // Before the first forces of a run that may continue the last one: note that an integrator begins anew; or, on any rank,
+    // that the motion of walls or open ends has changed
 
     void begin_anew() { continued = false; }
     void note_change() { changed = true; }
@@ -195,8 +194,8 @@ namespace SPHDissipation {
     Threads &team() const;                   // threads that share the work of the loops
     double support_radius() const { return support; }
 
-    // Of the fluid as it is now: return the largest stable time steps; return the smallest sqrt(h/a) with the stability
-    // length h and the accelerations a of particles of the fluid, UNLIMITED_STEP if there are none
+    // For the present fluid: return the largest stable time steps; return the smallest sqrt(h/a) of fluid particles, with
+    // the stability length h and the acceleration a (UNLIMITED_STEP without fluid particles)
 
     CoeffTable coeff_table();
     double fall_time() const;
@@ -218,8 +217,8 @@ namespace SPHDissipation {
 
     NeighList *neighbors();    // half list of the particles at their present places
 
-    // Parts of compute(), on the host; FluidKokkos runs them on a device.  set_pressure() returns the number of owned
-    // particles that are beyond the bound of the limit
+    // Parts of compute() on the host; FluidKokkos runs these parts on a device.  set_pressure() returns the number of owned
+    // particles beyond the bound of the limit
 
     virtual void sum_density();
     virtual void set_step(double dt);    // for the numbers of the states
@@ -241,7 +240,7 @@ namespace SPHDissipation {
     at_rest() const;    // strains are zero: in a minimization, and in a rerun, which has no strains
     double **extrapolated_spin() const;    // nullptr without spins
     int integrated = 0;                    // bits of the groups of its integrators
-    // true if the next neighbor list checks the speeds, or the expansion, of the particles
+    // Return true if the next neighbor list checks the speeds, or the expansion, of the particles
     bool checks_speed() const;
     bool checks_expansion() const;
 

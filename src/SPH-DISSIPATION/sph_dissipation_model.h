@@ -30,7 +30,7 @@ namespace SPHDissipation {
   struct Parameters;
   struct TypePair;
 
-  // Coefficients of a type, which pair_coeff I I sets, and what follows from them
+  // Coefficients of a type from pair_coeff I I, and numbers derived from these
 
   struct TypeCoeff {
     TypeCoeff();
@@ -67,7 +67,7 @@ namespace SPHDissipation {
     std::string summary(int dim, double support) const;    // one line for the log
 
     // Return the array by type pair of a coefficient that other commands may vary during a run, see Pair::extract(): they
-    // set its entries i <= j.  adopt() takes over the new values and returns whether there were any.
+    // set the entries i <= j.  adopt() takes over the new values, and returns whether any value is new.
 
     void *extract(const char *name, int &dim);
     bool adopt();
@@ -113,7 +113,7 @@ namespace SPHDissipation {
     bool has_pair_energy() const;      // any two unlike types have an energy of their pairs
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
-    // Return a keyword of this type that needs one of these, see enum Requirement, or nullptr
+    // Return a keyword of this type with any of these requirements, see enum Requirement, or nullptr
     const char *keyword_that_needs(int requirements, int type) const;
 
     // Return a hash of settings and coefficients; the hash at the last forces, 0 before the first ones
@@ -131,8 +131,8 @@ namespace SPHDissipation {
     bool shared = false;            // some types belong to other styles
 
    private:
-    // Coefficient that extract() returns: first the viscosities, then the coefficients of unlike types, then those of types,
-    // whose value for two types is the mean and has no other meaning; known = value when the model set it last
+    // Coefficient that extract() returns: first the viscosities, then the coefficients of unlike types, then those of types
+    // (their value for two types is only the mean); known = last value from the model
 
     struct Variable {
       std::string name;

@@ -70,7 +70,7 @@ StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 }
 
 /* ----------------------------------------------------------------------
-   Set the noise of the friction that surfaces add to their pairs: with numbers of its own, one along e.
+   Set the noise of the friction that surfaces add to their pairs: it has separate random numbers, one along e.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::set_surface_noise()
@@ -86,8 +86,8 @@ void NoiseStage::set_surface_noise()
 }
 
 /* ----------------------------------------------------------------------
-   Raise the offset if reset_timestep goes back, so that random numbers continue: in a setup with those of the last step,
-   else with those of the next one.  rerun repeats the numbers.
+   Raise the offset if reset_timestep goes back, so that random numbers continue: a setup repeats those of the last step, all
+   else has those of the next step.  rerun repeats the numbers.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::count_step()

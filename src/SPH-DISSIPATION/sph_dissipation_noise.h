@@ -22,21 +22,20 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Thermal noise: random forces and torques of the pairs, and a random pressure of each particle.  The
-  // impulses of a step have the covariance 2 kB T Gamma dt, where Gamma is the friction matrix of all
-  // viscous terms together (theory page).
+  // Thermal noise: random forces and torques of the pairs, and a random pressure of each particle.  The impulses of a step
+  // have the covariance 2 kB T Gamma dt, with the friction matrix Gamma of all viscous terms together (theory page).
   //
   // zeta_i >= 0: random pressure sqrt(2 kT zeta/(V dt)) xi_i
-  // zeta_i < 0: half of the coefficient of (u.e)^2 of each pair of i, a_ij F V_i V_j, belongs to i, which has its own number
-  // xi_ij for each pair.  With gamma_ij = (c_j/c_i) sqrt(V_j F r^2/a_ij), D_i = sum_j gamma_ij^2, and
+  // zeta_i < 0: each partner owns half of the coefficient of (u.e)^2 of a pair, a_ij F V_i V_j, and has its own number xi_ij
+  // for the pair.  With gamma_ij = (c_j/c_i) sqrt(V_j F r^2/a_ij), D_i = sum_j gamma_ij^2, and
   // eta_i = sum_j gamma_ij xi_ij, the numbers
   //   chi_ij = xi_ij - s_i gamma_ij eta_i/D_i,  s_i = 1 - sqrt(1 + 2 zeta_i D_i)
   // have the covariance 1 + 2 zeta_i gamma_i gamma_i^T.  D_i is the bound of LimitStage.
   //
-  // temp energy: each particle has the temperature T_i of its heat, the internal energy less the elastic energy.  Pairs have
-  // T_ij = 2 T_i T_j/(T_i + T_j) and less friction, so that exp(S/k) prod dS_i is stationary, and conduction has a random
-  // flow, see the theory page.  Friction with a wall has T_i and the heat of the fluid particle alone; a wall with a
-  // temperature is a heat bath for the flow.  Pass 2 then also conducts the heat, since it has all values of a pair.
+  // temp energy: each particle has the temperature T_i of its heat (internal energy less elastic energy).  The noise of a
+  // pair has T_ij = 2 T_i T_j/(T_i + T_j), and its friction is smaller, so that exp(S/k) prod dS_i is stationary; conduction
+  // has a random flow, see the theory page.  Friction with a wall has temperature and heat of the fluid particle alone; a
+  // wall with a temperature is a heat bath for the flow.  Pass 2 also conducts the heat, since it has all values of a pair.
 
   class NoiseStage : public Stage {
    public:
@@ -45,19 +44,19 @@ namespace SPHDissipation {
     {
     }
 
-    // Once in each step, before run(), which a step may call more than once: set the step of the random numbers
+    // Set the step of the random numbers: once in each step, before run().  A step may call run() more than once
 
     void count_step();
 
     // Before pass 2: add the random pressure to Particle::g; return the noise of pairs and single particles, for pass 2.
-    // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no pressure
-    // of their own; continued = the run continues the last one, whose last forces its first forces repeat
+    // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no random
+    // pressure; continued = the first forces of this run repeat the last forces of the last run
 
     StepNoise run(const double *bound, int not_fluid, bool continued);
 
-    // After pass 2 and ForceStage::collect(), with temp energy, if masses differ: add to the heating the share of each pair
-    // in the work of pressures and friction at the mean velocities of the kick, less what each particle pays for its own
-    // kick, see the theory page
+    // With temp energy and unequal masses, after pass 2 and ForceStage::collect(): add to the heating the share of each pair
+    // in the work of pressures and friction at the mean velocities of the kick; subtract the heat that each particle pays
+    // for its own kick, see the theory page
 
     void share_work();
     bool shares_work() const { return data.unequal; }

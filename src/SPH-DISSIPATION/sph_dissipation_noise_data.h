@@ -28,8 +28,8 @@ namespace SPHDissipation {
     PRESSURE,
     PAIR,
     DRAG,
-    STATE,            // and the next ones: one for every four states
-    SURFACE = 1000    // pairs across a surface, whose part in PAIR has other numbers
+    STATE,            // this number and the next ones: one for every four states
+    SURFACE = 1000    // added noise of pairs across a surface, besides PAIR
   };
 
   // Step of the last random numbers; offset of all steps, so that no two steps have the same numbers
@@ -51,8 +51,8 @@ namespace SPHDissipation {
     double central_by_square;
   };
 
-  // Row of a particle with temp energy.  temperature < 0: a wall particle, with minus the temperature of the wall, 0
-  // mobility and softness, and instead of the pressure 1 if heat passes its surface, else 0.
+  // Row of a particle with temp energy.  temperature < 0: a wall particle.  The number is then minus the temperature of the
+  // wall, mobility and softness are 0, and pressure is 1 if heat passes the surface, else 0.
 
   struct NoiseRow {
     double temperature;

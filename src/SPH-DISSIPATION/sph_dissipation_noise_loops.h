@@ -21,10 +21,9 @@
 //   1d, 2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
 //   3d: 0 to 2 = vector
 //   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
-// DIRECTED: "along e" belongs to the particle with the lower ID, "back" to the one with the higher ID.  A random flow of
-// heat, never DIRECTED, has the number "back", or number 3 besides three-dimensional vectors.  Vectors and the flow are
-// those of the particle with the lower ID, and opposite for the other one; numbers along and across e need no sign, since
-// e_ji = -e_ij.
+// DIRECTED: the particle with the lower ID has "along e", the other one has "back".  A random flow of heat (never DIRECTED)
+// has the number "back", or number 3 after three-dimensional vectors.  Vectors and the flow belong to the particle with the
+// lower ID, and are opposite for the other particle.  Numbers along and across e need no sign, since e_ji = -e_ij.
 
 template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct PairNumbers {
   static constexpr bool MANY = (ACROSS == 3 && (SPIN || DIRECTED));
@@ -77,8 +76,8 @@ struct NoiseStep {
   }
 };
 
-// Set the counter of a pair: both IDs, the step.  IDs of more than 32 bits count with their lower 46 bits: the upper ones
-// join the upper bits of the step, which needs 4 of them.
+// Set the counter of a pair: both IDs, and the step.  IDs of more than 32 bits count with their lower 46 bits: the upper 14
+// of these join the upper bits of the step, which needs 4 of them.
 
 SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Vec tag_j)
 {
@@ -359,10 +358,10 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
     return sum;
   }
 
-  // Return the heat that i gets from j, on average over the noise: each particle pays for the kinetic energy that it gets by
-  // the impulses of a step, but each partner should pay half for those of the pair, and a particle all for those of its
-  // random pressure.  square = random force of the pair times the sum of random force and friction; pressing = force over r,
-  // per P/c^2.  work_loop() sums the same for friction and pressures that are not random.
+  // Return the heat that i gets from j, on average over the noise.  Each particle pays for the kinetic energy that it gets
+  // by the impulses of a step.  Instead, each partner should pay half for the impulses of the pair, and a particle should
+  // pay all for the impulses of its random pressure.  square = random force of the pair times the sum of random force and
+  // friction; pressing = force over r, per P/c^2.  work_loop() sums the same for friction and pressures without noise.
 
   SPH_INLINE Vec given(Vec square, Vec rsq, Vec pressing) const
   {

@@ -339,8 +339,8 @@ namespace SPHDissipation {
   class OpenBand;
 
   // Creates and deletes the particles at the far end of a buffer zone, before new neighbor lists.  Particles form rows along
-  // the normal of the plane: when the last one of a row moves on, a copy is created behind it; particles beyond the end are
-  // deleted.  Results do not depend on the number of processors.
+  // the normal of the plane.  When the last particle of a row moves on, create a copy behind it; delete particles beyond the
+  // end.  Results do not depend on the number of processors.
 
   class ZoneLattice : protected Pointers {
    public:

@@ -225,7 +225,7 @@ bool OpenCondition::enters(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the density of energy, which uses the field of a rate that particles of a zone do not have.
+   Return the density of energy.  Particles of a zone do not have a certain rate: its field stores this density.
 ------------------------------------------------------------------------- */
 
 double &OpenCondition::density_of_energy(int i) const
@@ -355,8 +355,8 @@ OpenWave OpenCondition::wave(const Reference &ref) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave less its mean over time, for one of velocity and state given and the other one from inside: then the given
-   one holds in the mean over time.
+   Return the wave less its mean over time.  If one of velocity and state is given, and the other one is from inside, the
+   given one then holds in the mean over time.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::changes(const Reference &ref, double wave) const

@@ -327,8 +327,8 @@ std::vector<int> ZoneLattice::last_ones(const OpenBand &band) const
 
 /* ----------------------------------------------------------------------
    Create a particle behind each of the last ones, and replace the last one by the new one in the list.  Return false if no
-   processor created any.  The mass between two particles of a row is that of one particle: where distances depend on the
-   place, the distance of the new particle is the harmonic mean of those at both, to second order.
+   processor created any.  The mass between two particles of a row is the mass of one particle: so the distance of the new
+   particle is the harmonic mean of the distances at both places, to second order.
 ------------------------------------------------------------------------- */
 
 bool ZoneLattice::fill(std::vector<int> &last, const OpenBand &band, const Refresh &refresh,

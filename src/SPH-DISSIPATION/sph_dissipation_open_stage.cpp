@@ -191,8 +191,8 @@ void OpenStage::find_rows(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   Sum up force, couple, half of the heat of shear and spin, the heat of conduction, and the part P V w_j (-F r.u) / c of the
-   work of the pressure, that the particles of the fluid get from their pairs with a zone.
+   Sum up the impact of a zone on the fluid, over their pairs: force, couple, half of the heat of shear and spin, the heat of
+   conduction, and the part P V w_j (-F r.u) / c of the work of the pressure.
 ------------------------------------------------------------------------- */
 
 OpenImpact OpenStage::impact(NeighList *list, std::size_t k)

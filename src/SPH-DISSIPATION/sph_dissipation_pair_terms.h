@@ -123,8 +123,8 @@ template <class Form> SPH_INLINE void find_heat(PairState &pair)
   Form::add_vector(pair);
 }
 
-// After add_vector(): give the fluid all heat of a pair with a boundary; no change where is_boundary is 0.  The heat is the
-// work of the friction at the boundary's own velocity and spin: q(u) + q(u - excess) - q(excess), with q, a quadratic form,
+// After add_vector(): give the fluid all heat of a pair with a boundary; no change if is_boundary is 0.  The heat is the
+// work of the friction at the boundary's own velocity and spin: q(u) + q(u - excess) - q(excess).  The quadratic form q is
 // half of the heat of the pair.  excess: a copy of the pair with u, s, and approach of the excess
 
 template <class Form>
@@ -157,8 +157,8 @@ SPH_INLINE Real flow_of_pair(Real coefficient, Real vv, double value_i, Real val
 }
 
 // Diffusion of volume, see sph_dissipation_diffusion_terms.h: return F over the mean of two impedances; set the terms of a
-// pair, over V_j, in the sums of pressure_gradient(), from difference = p_i - p_j; return the difference less that of a
-// gradient
+// pair, over V_j, in the sums of pressure_gradient(), from difference = p_i - p_j; return the difference less the difference
+// by the gradient
 
 template <class Real> SPH_INLINE Real slope_by_impedance(Real slope, double z_i, Real z_j)
 {

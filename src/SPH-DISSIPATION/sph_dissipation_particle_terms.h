@@ -34,8 +34,8 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
-  // States and heat of owned particles, on the host or on a device, from their densities and internal energies, and the
-  // rates of both; the energies are those of the last forces.  See StateList and Eos.
+  // States and heat of owned particles, on the host or on a device, from densities, internal energies, and the rates of
+  // both.  The energies are those of the last forces.  See StateList and Eos.
 
   struct StateRows {
     const TypeParameters *types;    // by type, from 1
@@ -61,8 +61,8 @@ namespace SPHDissipation {
 
     SPH_FUNCTION const States::Numbers &numbers(int i) const { return types[type[i]].states; }
 
-    // Set the states of a new particle; temperature = that of the new particle, negative: it has its energy already.
-    // at_rest: the strains of all particles become zero
+    // Set the states of a new particle at this temperature; negative: the particle already has its energy.  at_rest: the
+    // strains of all particles become zero
 
     SPH_FUNCTION void begin(int i, double temperature = -1.0, bool at_rest = false) const
     {
@@ -75,7 +75,7 @@ namespace SPHDissipation {
       });
     }
 
-    // Set the states to 0: particles that are not fluid have none
+    // Set the states to 0, for particles that are not fluid
 
     SPH_FUNCTION void forget(int i) const
     {
@@ -93,8 +93,8 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the pressure of the states; return their energy, or its elastic part; add the energy per time that becomes heat
-    // to the heat by channel
+    // Return the pressure of the states; return the energy of the states, or its elastic part; add the heat of the states
+    // per time to the heat by channel
 
     SPH_FUNCTION double pressure(int i) const
     {
@@ -121,7 +121,7 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the rate of the temperature at constant states, from the rate of the internal energy less the work of the
+    // Return the rate of the temperature at constant states: from the rate of the internal energy, less the work of the
     // elastic pressure and of the states
 
     SPH_FUNCTION double temperature_rate(int i) const
@@ -131,8 +131,8 @@ namespace SPHDissipation {
       return (desph[i] / rmass[i] - p * drho[i] / (rho[i] * rho[i])) / par.heat_capacity;
     }
 
-    // Return the heat: the internal energy less the elastic energy of the equation of state, and less held(), the energies
-    // of states and in the forces of walls
+    // Return the heat: the internal energy less the elastic energy of the equation of state, less held(): the energy of
+    // states, and the energy in the forces of walls
 
     SPH_FUNCTION double thermal_energy(int i) const
     {
@@ -155,9 +155,9 @@ namespace SPHDissipation {
     }
   };
 
-  // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  The functions are for
-  // one particle i; stages on the host and on the device call them.  bound = of LimitStage, nullptr without; not_fluid =
-  // bits of the groups of boundary particles
+  // Owned and ghost particles, on the host or on a device: rows of the loops, and arrays of LAMMPS.  Each function is for
+  // one particle i; stages on the host and on the device call these functions.  bound = bound of LimitStage, or nullptr;
+  // not_fluid = bits of the groups of boundary particles
 
   struct ParticleRows {
     Constants par;
@@ -201,10 +201,10 @@ namespace SPHDissipation {
       vfrac[i] = vol;
     }
 
-    // Density continuity: replace c of an owned particle, a sum, by rho/m.  rho changes as the sum has changed since the
-    // last forces; at the first ones rho stays, or becomes rho0 if it is 0.  Walls and open zones have the sum alone, and so
-    // have bodies until BoundaryStage::set_frozen() sets their density.  rho_sum of a body is negative, minus the sum
-    // without its own body; keeps: rho of bodies stays.
+    // Density continuity: replace c of an owned particle, a sum, by rho/m.  Add to rho the change of the sum since the last
+    // forces; at the first forces keep rho, or set rho0 if rho is 0.  Walls and open zones have the sum alone; so have
+    // bodies, until BoundaryStage::set_frozen() sets their density.  rho_sum of a body is minus the sum without its own
+    // body; keeps: do not change rho of bodies.
 
     SPH_FUNCTION void add_offset(int i, int not_fluid, int bodies = 0, bool keeps = false) const
     {
@@ -231,7 +231,7 @@ namespace SPHDissipation {
       density[i].c = now / mass;
     }
 
-    // Set a density and a pressure P, see pressure_term(), which do not follow from pass 1; and the volume and P/c^2
+    // Set a density and a pressure P, see pressure_term(), that are not from pass 1; set volume and P/c^2
 
     SPH_FUNCTION void set_state(int i, double density_of, double total) const
     {
@@ -242,8 +242,7 @@ namespace SPHDissipation {
       vfrac[i] = vol;
     }
 
-    // Set the reference density of the type, and no pressure, for a boundary particle, since most of its neighbors are
-    // missing
+    // Give a boundary particle the reference density of its type and no pressure: most of its neighbors are missing
 
     SPH_FUNCTION void set_reference_volume(int i, int not_fluid) const
     {
@@ -272,7 +271,7 @@ namespace SPHDissipation {
       return own.zeta;
     }
 
-    // Set mu of an owned particle at a rate of shear; -1 if it is not fluid, so that pairs take mu of the other particle
+    // Set mu of an owned particle at a rate of shear; -1: not fluid, pairs take mu of the other particle
 
     void set_viscosity(int i, double rate, int not_fluid) const
     {
@@ -297,8 +296,8 @@ namespace SPHDissipation {
       state_pressure[i] -= thermal_pressure(types[type[i]].eos, rho[i], held / rmass[i]);
     }
 
-    // Add the work of the pressure over this time to the internal energy of an owned particle, with the pressure that
-    // follows from the result.
+    // Add the work of the pressure over this time to the internal energy of an owned particle.  The pressure is that of the
+    // new energy.
 
     SPH_FUNCTION void complete_energy(int i, double time, int not_fluid) const
     {
@@ -311,8 +310,8 @@ namespace SPHDissipation {
       esph[i] += shrinks * p / (1.0 - shrinks * thermal_pressure(eos, rho[i], by_mass));
     }
 
-    // Set the input of the flow loops: set_flow_values() the values of an owned particle; set_flows() volume and
-    // coefficients of an owned or ghost particle, 0 for particles that are not fluid, until a boundary sets them.
+    // Set the input of the flow loops.  set_flow_values(): values of an owned particle.  set_flows(): volume and
+    // coefficients of an owned or ghost particle; 0 for particles that are not fluid, until a boundary sets the numbers.
 
     SPH_FUNCTION void set_flow_values(int i) const
     {
@@ -335,9 +334,8 @@ namespace SPHDissipation {
       flow[k][i].flux = 0.0;
     }
 
-    // Return whether an owned or ghost particle takes part in the diffusion of volume; set its input of the loops.
-    // integrated = bits of the groups whose volumes change.  The pressure is that of the equation of state: strains do not
-    // change
+    // Return whether an owned or ghost particle takes part in the diffusion of volume; set its input of the loops, with the
+    // pressure of the equation of state, since strains do not change.  integrated = bits of the groups whose volumes change
 
     SPH_FUNCTION bool diffuses(int i, int not_fluid, int integrated) const
     {
@@ -365,8 +363,8 @@ namespace SPHDissipation {
       return par.states ? p + state_pressure[i] : p;
     }
 
-    // Return the work per time of this pressure on the particle: of the thermal pressure, and of all else, which becomes
-    // elastic energy or strain
+    // Return the work per time of this pressure on the particle: of the thermal pressure, and of all else (this part becomes
+    // elastic energy or strain)
 
     struct Work {
       double thermal, elastic;
@@ -379,8 +377,8 @@ namespace SPHDissipation {
       return {thermal * rate, (total_pressure(i) - thermal) * rate};
     }
 
-    // Set g and zeta_term from volume and density, zero for particles that are not fluid; add the work of the pressure to
-    // the heating.  P1 (12), (18)
+    // Set g and zeta_term from volume and density (0 for particles that are not fluid); add the work of the pressure to the
+    // heating.  P1 (12), (18)
 
     SPH_FUNCTION void set_pressure(int i, const double *bound, int not_fluid) const
     {

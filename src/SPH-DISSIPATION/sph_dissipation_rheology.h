@@ -168,8 +168,8 @@ namespace SPHDissipation {
 
   // Return the square of the rate of shear of a particle, 2 E:E to second order; the result may be negative.
   // sum = sum_j V_j F (e.u)^2, with mg/fr2 (r.u)^2; factor = shear_factor()/2; rate = cdot/c; n = dimension.  V (mu gamma^2
-  // + kappa (cdot/c)^2) is the heat of the shear and the bulk term, so that the derivative of sum_i V_i phi(gamma_i),
-  // phi' = mu gamma, is the force with the mean of mu_i and mu_j (theory page).
+  // + kappa (cdot/c)^2) is the heat of the shear and the bulk term.  So the force with the mean of mu_i and mu_j is the
+  // derivative of sum_i V_i phi(gamma_i), phi' = mu gamma (theory page).
   SPH_FUNCTION double shear_rate_squared(int n, double factor, double sum, double rate)
   {
     return factor * sum - (1.0 + 2.0 / n) * rate * rate;

@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SETTINGS_H
 #define LMP_SPH_DISSIPATION_SETTINGS_H
 
-// Choices of pair_style, words of pair_coeff, and numbers that follow without the formulas of the channels: nearly all files
-// need no more of the fluid.  No LAMMPS include.
+// Choices of pair_style, words of pair_coeff, and numbers that do not need the formulas of the channels: nearly all files
+// include no more of the fluid.  No LAMMPS include.
 
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_flows.h"
@@ -134,7 +134,7 @@ namespace SPHDissipation {
     int count;    // coefficients, at most
     int group;    // coefficients of a group; 0: no groups
     int needs;    // bits of enum Requirement
-    // The number 0 acts as well: the first coefficient, no number of the command, is 1 if the keyword is given
+    // true: the number 0 has an effect.  The first coefficient is no number of the command, but 1 if the keyword is given
     bool marked = false;
     int first = 0;    // place among the coefficients of all channels, set by type_keywords()
 
@@ -158,8 +158,8 @@ namespace SPHDissipation {
     bool one_fluid;    // all pairs have the same coefficients; read with by_rate
   };
 
-  // Columns of a row of sums over pairs: torque (3 numbers) with spins, then the heat of each channel with a bit but the
-  // first
+  // Columns of a row of sums over pairs: with spins the torque (3 numbers), then the heat of each channel with a bit, but
+  // not of the first one
   struct ChannelColumns {
     bool spins;
     int bits;
@@ -178,7 +178,7 @@ namespace SPHDissipation {
     }
   };
 
-  // Constants of all types, which a device copies as a whole
+  // Constants of all types; a device gets a copy of this struct
 
   struct Constants : Settings {
     double support = 0.0;             // R

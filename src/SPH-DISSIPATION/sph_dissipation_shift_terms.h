@@ -16,39 +16,39 @@
 
 // Particle shifting.  No LAMMPS include.
 //
-// In a time t, a particle goes from crowded to thin places by
+// In a time t, a particle moves from dense to thin regions by
 //   delta_i = t U_i R g_i, at most t U_i/2,   g_i = sum_j V_j F r_ij [1 + 0.2 (W/W(V_i^(1/n)))^4],
 // with the support radius R: S. J. Lind et al., J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al., Comput. Methods Appl.
 // Mech. Eng. 315, 25 (2017).  Its velocity stays.  U_i is a given speed, or 5 R times the local rate of shear.
 //
-// Neighbors go back, so that the center of mass stays where it is: the displacement is
+// Neighbors move back, so that the center of mass does not move: the displacement is
 //   D_i = delta_i - (1/m_i) sum_j a_ij q_j,   q_i = m_i delta_i/A_i,   A_i = sum_j a_ij,
 //   a_ij = F V_i V_j min(m_i, m_j)/max(m_i, m_j)  between particles that shift.
-// The sum of m_i D_i x v_i is that of q_i x sum_j a_ij u_ij, with the difference u of the velocities: angular momentum which
-// impulses of the pairs give back, at their distances r' after the displacement:
+// This changes the angular momentum by sum_i m_i D_i x v_i = sum_i q_i x sum_j a_ij u_ij, with the difference u of the
+// velocities.  Impulses of the pairs, at the distances r' after the displacement, take the change back:
 //   p_ij = a_ij (w_i + w_j) x r'_ij,   I_i w_i = -q_i x sum_j a_ij u_ij,   I_i = sum_j a_ij (r'^2 1 - r' r').
-// So momentum and angular momentum are conserved exactly, each by what a particle and its neighbors do.  Heat takes the
-// change of the kinetic energy.
+// So each particle with its neighbors conserves momentum and angular momentum exactly.  The change of the kinetic energy
+// becomes heat.
 
 #include "sph_dissipation_tensor.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // A particle in a shift; velocities are those after the first half of the kick
+  // A particle in a shift, with the velocity after the first half of the kick
 
   struct ShiftRow {
     double vol = 0.0, mass = 1.0;    // vol 0: the particle does not shift
     double speed = 0.0;              // given part of U
     double per_rate = 0.0;           // U per rate of shear
     double contact = 0.0;            // see contact_inverse(), of all particles
-    double q[3] = {}, v[3] = {};     // v without that of the last forces, see velocity_in_shift()
-    double d[3] = {};                // delta, then D
-    double w[3] = {};                // the lost angular momentum, then w
+    double q[3] = {},
+           v[3] = {};    // v less the velocity in the last forces, see velocity_in_shift()
+    double d[3] = {};    // delta, then D
+    double w[3] = {};    // the lost angular momentum, then w
   };
 
-  // What each fix that shifts particles asks for: the bit of its group; the speed U, or, if it is automatic, the speed of the
-  // local rate of shear
+  // Shift of one fix: the bit of its group, and the speed U; automatic: U follows the local rate of shear instead
 
   struct ShiftMover {
     int groupbit;
@@ -64,7 +64,7 @@ namespace SPHDissipation {
     row.per_rate = mover.automatic ? STRAIN * support : 0.0;
   }
 
-  // first sums of a particle over all its neighbors
+  // First loop: sums of a particle over all its neighbors
 
   struct ShiftSum {
     double gradient[3] = {};               // g
@@ -73,25 +73,25 @@ namespace SPHDissipation {
     double tensor[MOST_OF_TENSOR] = {};    // sum_j V_j F r r, where surfaces matter
   };
 
-  // then over those that shift: sum_j a_ij q_j, sum_j a_ij u_ij
+  // Second loop: sums over the neighbors that shift, sum_j a_ij q_j and sum_j a_ij u_ij
 
   struct ShiftExchange {
     double moved[3] = {}, slip[3] = {};
   };
 
-  // then, at the new places, sum_j a_ij r' r'
+  // Third loop: at the new places, sum_j a_ij r' r'
 
   struct ShiftTensor {
     double a[MOST_OF_TENSOR] = {};
   };
 
-  // what the impulses do: J_i = sum_j p_ij, sum_j p_ij.(v_i + v_j)/2
+  // Fourth loop: impulse J_i = sum_j p_ij, and work sum_j p_ij.(v_i + v_j)/2
 
   struct ShiftReturn {
     double impulse[3] = {}, work = 0.0;
   };
 
-  // constants of a shift
+  // Constants of a shift
 
   struct ShiftLaw {
     int dim;
@@ -101,7 +101,7 @@ namespace SPHDissipation {
     bool surfaces;            // no particle is pushed out of a free surface
   };
 
-  // 1/shape at the distance of a neighbor on a lattice of particles of this volume
+  // Return 1/shape at the distance of a neighbor on a lattice of particles of this volume
 
   template <class K> SPH_FUNCTION double contact_inverse(int dim, double support, double vol)
   {
@@ -109,8 +109,8 @@ namespace SPHDissipation {
     return 1.0 / K::shape((q < 0.9) ? q : 0.9);
   }
 
-  // weight of r_ij in g, for a neighbor of volume V, slope F and this shape of the kernel; the second term keeps particles
-  // from pairing
+  // Return the weight of r_ij in g, for a neighbor of volume V, slope F and this shape of the kernel; the second term
+  // prevents pairing
 
   SPH_FUNCTION double concentration_push(double vol, double slope, double shape, double contact)
   {
@@ -119,7 +119,7 @@ namespace SPHDissipation {
     return vol * (slope * (1.0 + PAIRING * close * close));
   }
 
-  // a_ij
+  // Return a_ij
 
   SPH_FUNCTION double shift_share(double slope, const ShiftRow &a, const ShiftRow &b)
   {
@@ -127,7 +127,7 @@ namespace SPHDissipation {
     return slope * (a.vol * b.vol) * ratio;
   }
 
-  // add a neighbor of volume vol, at distance r, with the difference u of the velocities of the last forces, to the sums
+  // Add a neighbor of volume vol at distance r to the sums; u = difference of the velocities in the last forces
 
   SPH_FUNCTION void add_to_shift(const ShiftLaw &law, const double *r, const double *u, double vol,
                                  double slope, double push, double share, ShiftSum &sum)
@@ -139,8 +139,8 @@ namespace SPHDissipation {
     if (law.surfaces) add_square(law.dim, vol * slope, r, sum.tensor);
   }
 
-  // The part of a shift that remains near a free surface, by the smallest eigenvalue of sum_j V_j F r r: about 1 inside of
-  // the fluid, 1/2 at a plane surface
+  // Return the part of a shift that remains near a free surface; smallest = smallest eigenvalue of sum_j V_j F r r, about 1
+  // inside of the fluid, 1/2 at a plane surface
 
   SPH_FUNCTION double part_at_surface(double smallest)
   {
@@ -149,7 +149,7 @@ namespace SPHDissipation {
     return (part < 0.0) ? 0.0 : (part < 1.0) ? part : 1.0;
   }
 
-  // rate of shear, the root of 2 D:D with the rate of strain D
+  // Return the rate of shear, the root of 2 D:D with the rate of strain D
 
   SPH_FUNCTION double rate_of_shear(const double *slopes)
   {
@@ -162,7 +162,7 @@ namespace SPHDissipation {
     return sqrt(sum);
   }
 
-  // delta and q.  A particle with few neighbors that shift, which could not take over what it changes, stays.
+  // Set delta and q.  A particle with few neighbors that shift does not move: these could not balance its displacement.
 
   SPH_FUNCTION void set_shift(const ShiftLaw &law, const ShiftSum &sum, ShiftRow &row)
   {
@@ -182,14 +182,14 @@ namespace SPHDissipation {
     }
   }
 
-  // velocity of a particle or of its copy beyond a periodic boundary, which may have another one: u = of the last forces
+  // Set v to the velocity of a particle, or of its periodic image; u = velocity in the last forces, differs for an image
 
   SPH_FUNCTION void velocity_in_shift(const ShiftRow &row, const double *u, double *v)
   {
     for (int d = 0; d < 3; d++) v[d] = u[d] + row.v[d];
   }
 
-  // D, and the angular momentum that is lost
+  // Set D, and the lost angular momentum
 
   SPH_FUNCTION void set_displacement(const ShiftExchange &sum, ShiftRow &row)
   {
@@ -198,7 +198,7 @@ namespace SPHDissipation {
     cross_product(row.q, sum.slip, row.w);
   }
 
-  // w
+  // Set w
 
   SPH_FUNCTION void set_return(int dim, const ShiftTensor &sum, ShiftRow &row)
   {
@@ -215,7 +215,7 @@ namespace SPHDissipation {
     for (int d = 0; d < 3; d++) row.w[d] = -w[d];
   }
 
-  // p_ij, and its work at the mean of both velocities
+  // Set push = p_ij; return the work of p_ij at the mean of both velocities
 
   SPH_FUNCTION double impulse_of_pair(double share, const ShiftRow &a, const ShiftRow &b,
                                       const double *va, const double *vb, const double *r,
@@ -231,8 +231,8 @@ namespace SPHDissipation {
     return work;
   }
 
-  // Change what a particle has, which the first half of a step of length dt has moved already.  keep: as of TimeStep; mvv2e
-  // turns mass * velocity^2 into an energy
+  // Change position, velocities and energy of a particle, after the first half of a step of length dt.  keep: as in
+  // TimeStep; mvv2e turns mass * velocity^2 into an energy
 
   SPH_FUNCTION void finish_shift(const ShiftRow &row, const ShiftReturn &sum, double dt,
                                  double keep, double mvv2e, double *x, double *v, double *vest,

@@ -203,7 +203,7 @@ namespace SPHDissipation {
     }
   }
 
-  // Motion of parts relative to their center of mass: angular momentum and kinetic energy
+  // Angular momentum and kinetic energy of parts, relative to their center of mass
 
   struct InternalMotion {
     double angmom[3];
@@ -235,9 +235,9 @@ namespace SPHDissipation {
     return motion;
   }
 
-  // Merge n particles into one; return the heat in units of mass velocity^2, which is not yet in whole.energy.  A spinning
-  // particle gets the largest principal moment of inertia of its parts: then the energy of its spin is at most that of the
-  // motion of the parts, L^2/(2 J) <= L J^-1 L/2.  residual = angular momentum that a particle without spin cannot hold.
+  // Merge n particles into one; return the heat in units of mass velocity^2; whole.energy does not contain it yet.  A
+  // spinning particle gets the largest principal moment of inertia of its parts: then the energy of the spin is at most the
+  // energy of the parts, L^2/(2 J) <= L J^-1 L/2.  residual = angular momentum that a particle without spin cannot hold.
 
   inline double merge(const Lump *parts, int n, int dim, bool spinning, Lump &whole,
                       double *residual)
@@ -323,8 +323,8 @@ namespace SPHDissipation {
     }
   };
 
-  // Return the weight of a neighbor, which goes to zero with the distance: then round-off, which differs between processors,
-  // decides nothing at the edge
+  // Return the weight of a neighbor; it goes to zero at the radius: so round-off decides nothing at the edge, and results do
+  // not depend on the number of processors
 
   inline double shell_weight(double rsq, double radius)
   {
@@ -387,8 +387,8 @@ namespace SPHDissipation {
       if (rsq > 0.0) near.add_product(1.0 / whole_power(rsq, 5), r);
     }
 
-    // Return the spacing, of a particle of this volume, along the axis with the largest spacing, the first of equal ones;
-    // ratio = over the spacing of an isotropic arrangement
+    // Return the largest spacing of the three axes (the first of equal ones), for a particle of this volume; ratio = this
+    // spacing over the spacing of an isotropic arrangement
 
     double widest(int dim, double volume, double *axis, double &ratio) const
     {

@@ -86,7 +86,7 @@ void DensityStage::run(NeighList *list, double **vest, double **omegaest, bool a
 }
 
 /* ----------------------------------------------------------------------
-   what owned particles have to ghosts; then the densities of all but the first ones, which have theirs
+   Send the values of owned particles to ghosts; then set the densities of all particles from number first on.
 ------------------------------------------------------------------------- */
 
 void DensityStage::send(bool with_states, int flows, int not_fluid, int first)
@@ -179,7 +179,7 @@ bigint PressureStage::run(const double *bound, int not_fluid)
 }
 
 /* ----------------------------------------------------------------------
-   the volume of a particle of an open zone is prescribed, its c is not
+   The volume of a particle of an open zone is prescribed; its c is a sum.
 ------------------------------------------------------------------------- */
 
 void PressureStage::set_bulk_term(const double *bound, int not_fluid) const
@@ -378,7 +378,7 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
 }
 
 /* ----------------------------------------------------------------------
-   The pressure is that of the equation of state: strains stay as they are
+   The pressure is the pressure of the equation of state: strains do not change.
 ------------------------------------------------------------------------- */
 
 void DiffusionStage::evaluate(int not_fluid, int integrated)
@@ -407,7 +407,7 @@ void DiffusionStage::evaluate(int not_fluid, int integrated)
   double *const flow_of = flow[0].a;
   exchange.reverse({{flow_of, 2, 2}});
 
-  // with the factor of a_ij that the loops leave out
+  // factor of a_ij that the loops leave out
 
   const double factor = par.delta * par.support / (alike ? impedances[0] : 1.0);
   engine.for_each(atom->nlocal, [&](int i) {
@@ -446,7 +446,7 @@ void DiffusionStage::set_rows(int not_fluid, int integrated)
 /* ---------------------------------------------------------------------- */
 
 /* ----------------------------------------------------------------------
-   At most the time in which sound crosses the support radius
+   Return the number of steps between two shifts: at most the time in which sound crosses the support radius.
 ------------------------------------------------------------------------- */
 
 int ShiftStage::interval() const
@@ -585,7 +585,7 @@ void ShiftStage::run(double keep)
 }
 
 /* ----------------------------------------------------------------------
-   of the particle itself (density); summed by pairs, also on ghost atoms (volume)
+   Return the heat of the bulk term: of an owned particle (form density); summed by pairs, also on ghosts (form volume).
 ------------------------------------------------------------------------- */
 
 inline double ForceStage::bulk_heat(int i) const

@@ -34,9 +34,8 @@ namespace SPHDissipation {
   struct PairEnergyKernel;
   struct StepPlan;
 
-  // A stage of the force computation: sums of its own over the pairs that pass 1 of the engine has
-  // found, and what it sends to ghost atoms or gets back from them.  Fluid::compute() lists the stages
-  // in their order.
+  // A stage of the force computation: its sums over the pairs of pass 1, and its messages to and from ghost atoms.
+  // Fluid::compute() lists the stages in their order.
 
   class Stage : protected Pointers {
    public:
@@ -55,22 +54,19 @@ namespace SPHDissipation {
     int nforce() const;
   };
 
-  // Pass 1: density c of the reference volumes w, for w = 1 of the number of particles, and its rate;
-  // then volume and mass density, see ParticleRows::set_density()
+  // Pass 1: density c of the reference volumes w (number density if w = 1), and its rate; then volume and mass density, see
+  // ParticleRows::set_density()
 
   class DensityStage : public Stage {
    public:
     using Stage::Stage;
 
-    // extrapolated velocity and spin, each nullptr where it is zero.  not_fluid = bits of the groups of particles of
-    // walls and open zones
+    // Run with extrapolated velocity and spin; nullptr: zero.  not_fluid = bits of the groups of walls and open zones
 
     void run(NeighList *, double **vest, double **omegaest, int not_fluid, bool slopes_read = true);
 
-    // for forces, with the pressure of states: at_rest, strains are zero; with the values of the
-    // flows; and, where particles have the noise of their temperatures, with the internal energies at the end
-    // of the step, which lack the work of the pressure over this time.  not_fluid = bits of the groups of particles of
-    // walls and open zones
+    // Run for the forces: also set the pressure of states (at_rest: strains are zero) and the values of flows.  With
+    // temp energy, complete the internal energies to the end of the step by the work of the pressure over the missing time
 
     void run(NeighList *, double **vest, double **omegaest, bool at_rest, double missing,
              int not_fluid, bool slopes_read);
@@ -80,10 +76,10 @@ namespace SPHDissipation {
     void send(bool with_states, int flows, int not_fluid, int first);
   };
 
-  // How negative the coefficient of the bulk term of a particle may be:
+  // Bound on negative coefficients of the bulk term of a particle:
   //   B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij,
-  // where a_ij F V_i V_j is what the shear term puts before (u.e)^2.  The total dissipation is
-  // non-negative for any velocities if zeta_i B_i >= -1/2 for all particles (theory page).
+  // where a_ij F V_i V_j is the coefficient of (u.e)^2 in the shear term.  The total dissipation is non-negative for any
+  // velocities if zeta_i B_i >= -1/2 for all particles (theory page).
 
   class LimitStage : public Stage {
    public:
@@ -98,13 +94,14 @@ namespace SPHDissipation {
     ThreadSums<double> sums;
   };
 
-  // Viscosities that are not constant, see sph_dissipation_rheology.h; with the volumes of particles set
+  // Viscosities that are not constant, see sph_dissipation_rheology.h; needs the volumes of particles
 
   class ViscosityStage : public Stage {
    public:
     using Stage::Stage;
 
-    // of the rates of shear at the velocities of the particles, which owned ones keep; of the rates that they have kept
+    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep these rates.  keep():
+    // set viscosities from the kept rates
     void run(int not_fluid);
     void keep(int not_fluid);
 
@@ -114,23 +111,22 @@ namespace SPHDissipation {
     std::vector<double> rates;    // of owned and ghost atoms
   };
 
-  // Pressure and bulk term of all particles of the fluid, of volume and density as pass 1 left them, see
-  // ParticleRows::set_pressure()
+  // Pressure and bulk term of all fluid particles, from the volume and density of pass 1, see ParticleRows::set_pressure()
 
   class PressureStage : public Stage {
    public:
     using Stage::Stage;
 
-    // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles,
-    // which get zero.  Returns the number of owned particles whose coefficient is beyond the bound.
+    // Boundary particles (groups not_fluid) get zero.  Return the number of owned particles whose coefficient is beyond the
+    // bound (of LimitStage; nullptr without)
 
     bigint run(const double *bound, int not_fluid);
 
-    // the bulk term alone, of the rates that pass 1 has left: what the passes leave of Gamma u
+    // Set the bulk term alone, from the rates of pass 1, for the product Gamma u
 
     void set_bulk_term(const double *bound, int not_fluid) const;
 
-    // elastic energy of owned particles, with that of their strains; each_atom = what it is added to, or nullptr
+    // Return the elastic energy of owned particles, strains included; add it to each_atom, unless this is nullptr
 
     double elastic_energy(double *each_atom, int not_fluid) const;
   };
@@ -141,48 +137,47 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    // Advance them by the time step for which the parameters hold, from the last forces; not_fluid as above.
+    // Advance the states by the time step of the parameters, from the last forces; not_fluid as above.
     // noise[k * nlocal + i] = thermal noise of the state at place k
 
     void advance(int not_fluid, const std::vector<double> &noise) const;
 
-    // owned particles keep the states that their types have; returns how many particles, of all processors, had others, and
-    // bits of the places of these
+    // Drop states that the types of owned particles do not have; return the number of particles with such states, of all
+    // processors, and the bits of the places of these states
     std::pair<bigint, int> keep() const;
 
-    // energy that they hold, of owned particles of these groups, not_fluid as above
+    // Return the energy of the states of owned particles of these groups, not_fluid as above
 
     double energy(int groupbits, int not_fluid) const;
   };
 
-  // The flows, after pass 2, see FlowList: onto the heating of LAMMPS as ForceStage, or for the state that the integrator
-  // will advance
+  // The flows, after pass 2, see FlowList: added to the heating of LAMMPS, or kept for the next advance of a state
 
   class FlowStage : public Stage {
    public:
     using Stage::Stage;
 
-    // with the heat per time of owned and ghost atoms that another stage adds
+    // Run; add() of another stage adds heat per time to owned and ghost atoms
     void run(const std::function<void(std::vector<double> &heat)> &add);
 
-    // heat per time that particles of a group got in run(), on this processor
+    // Return the heat per time that particles of a group got in run(), on this processor
     double received(int groupbit) const;
 
     void forget();    // the rates of the last forces
   };
 
-  // Energy of pairs of unlike types, a w_i w_j W(r) with the reference volumes w = m/rho0, see
-  // BaseChannel::pair_energy() and PairEnergyKernel: their force, after pass 2
+  // Energy of pairs of unlike types, a w_i w_j W(r) with the reference volumes w = m/rho0, and the force of this energy,
+  // after pass 2; see BaseChannel::pair_energy() and PairEnergyKernel
 
   class PairEnergyStage : public Stage {
    public:
     using Stage::Stage;
 
     bool active() const;
-    // add the forces to the sums of the engine, with a tally of each pair, or nullptr
+    // Add the forces to the sums of the engine, with a tally of each pair, or nullptr
     void run(NeighList *, PairTally *);
-    // Energy of the particles of a group, half of each pair, on this processor, added to those of the particles (nullptr:
-    // to none); of the pairs of the last run()
+    // Return the energy of the particles of a group, half of each pair, at the last run(), on this processor; add it to the
+    // energies of the particles (nullptr: to none)
     double energy(double *each_atom, int groupbit) const;
 
     double memory_usage() const override { return bytes(pairs, sums); }
@@ -197,25 +192,25 @@ namespace SPHDissipation {
     ThreadSums<ForceSum> sums;
 
     void find_pairs(NeighList *, const PairEnergyKernel &);
-    // function(pair, r_ij, r^2) for those within the support radius
+    // Call function(pair, r_ij, r^2) for the pairs within the support radius
     template <class Function>
     void visit(std::size_t from, std::size_t to, Function &&function) const;
   };
 
-  // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The rates of volumes and energies are kept
-  // with the particles: between two evaluations they stay as they are, with which no sum changes.
+  // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The particles keep the rates of volumes and
+  // energies constant between two evaluations: so the sums over all particles do not change.
 
   class DiffusionStage : public Stage {
    public:
     using Stage::Stage;
 
-    // find the rates; how full the support of a particle is: the smallest eigenvalue of its tensor, 1 inside of the fluid,
-    // about 1/2 at a plane surface, 0 of particles that have no neighbors or are not fluid; integrated = bits of the groups
-    // whose volumes change, of others, as the particles of a rigid body, none does
+    // Find the rates, and the filled part of each support: the smallest eigenvalue of the tensor, 1 inside of the fluid,
+    // about 1/2 at a plane surface, 0 for particles without neighbors or that are not fluid.  integrated = bits of the
+    // groups whose volumes change: volumes of rigid bodies do not change
 
     void evaluate(int not_fluid, int integrated);
 
-    // onto the heating
+    // Add the heat of the last rates to the heating
 
     void add_heat(int not_fluid, int integrated) const;
 
@@ -229,8 +224,8 @@ namespace SPHDissipation {
     void set_rows(int not_fluid, int integrated);
   };
 
-  // Particle shifting, see sph_dissipation_shift_terms.h: not in a force computation, but every few steps, after the first
-  // half of the step, with the pairs and the volumes of the last forces
+  // Particle shifting, see sph_dissipation_shift_terms.h: every few steps, after the first half of the step, with the pairs
+  // and the volumes of the last forces
 
   class ShiftStage : public Stage {
    public:
@@ -250,27 +245,27 @@ namespace SPHDissipation {
     std::vector<double> sums;      // rows of one of the structs of sums
     ThreadSums<double> thread_sums;
 
-    // sums of owned particles of what add(i, j, entry, sum of i, sum of j) adds for each pair
+    // Return the sums of owned particles; for each pair, add(i, j, entry, sum of i, sum of j) adds to both sums
     template <class Sum, class Add> const Sum *sum_up(const Add &);
   };
 
-  // Pass 2: forces, torques and heating of owned atoms and the contributions to ghost atoms, onto
-  // the arrays of LAMMPS, which sums up those of the ghosts itself
+  // Pass 2: adds forces, torques and heating of owned and ghost atoms to the arrays of LAMMPS; LAMMPS sends the sums of
+  // ghosts to their owners
 
   class ForceStage : public Stage {
    public:
     using Stage::Stage;
 
-    // tally of each pair, or nullptr; add_more: to the sums of the engine, after pass 2
+    // Run with a tally of each pair, or nullptr; after pass 2, add_more() adds to the sums of the engine
     void run(NeighList *, PairTally *, const StepPlan &, const std::function<void()> &add_more);
 
-    // also add the force and torque of ghosts to those of their owners in the engine
+    // Add the force and torque of ghosts to the sums of their owners in the engine as well
 
     void collect();
 
-    // Heat of the dissipative forces, energy per time: of each owned and ghost atom as this rank
-    // summed it (with newton on, the sums of ghosts belong to their owners), heat may be nullptr; by
-    // channel, the sum on this rank.  not_fluid = bits of the groups of particles that are left out
+    // Get the heat of the dissipative forces, energy per time.  heat: for each owned and ghost atom, as summed on this rank
+    // (with newton on, the sums of ghosts belong to their owners), or nullptr.  power: by channel, the sum on this rank.
+    // Particles of the groups not_fluid do not count
 
     void heating(double *heat, double *power, int not_fluid) const;
 

@@ -31,12 +31,12 @@ namespace SPHDissipation {
 
   // Change of a state where particles split, merge, or get another mass
   enum class StateKind {
-    STRAIN,    // a density at rest, mass/length^n: the strain ln(rho/state) stays, means are by mass
+    STRAIN,    // density at rest, mass/length^n: the strain ln(rho/state) stays, means are by mass
     PER_MASS,    // the state stays, means are by mass
     EXTENSIVE    // the state is shared, added up, and proportional to the mass
   };
 
-  // Return ln(a/b), and e^x; near 1 by series that are exact to rounding errors, without a call
+  // Return ln(a/b); return e^x.  Near 1, series without a function call are exact to rounding errors
 
   SPH_FUNCTION double log_of_ratio(double a, double b)
   {
@@ -59,7 +59,7 @@ namespace SPHDissipation {
     return (rest > 0.0 && density > 0.0) ? log_of_ratio(density, rest) : 0.0;
   }
 
-  // A state of a particle, for its channel: own = its numbers for the time step, rows = StateRows
+  // A state of a particle, as its channel reads it: own = numbers of the state for the time step, rows = StateRows
 
   template <class Rows, class Channel> struct Site {
     const Rows &rows;
@@ -70,40 +70,40 @@ namespace SPHDissipation {
     SPH_FUNCTION double strain() const { return strain_at(rho(), state()); }
     SPH_FUNCTION double mass() const { return rows.rmass[i]; }
     SPH_FUNCTION double rho() const { return rows.rho[i]; }
-    // rate of the state by the flow of the channel
+    // Return the rate of the state by the flow of the channel
     SPH_FUNCTION double flow() const { return rows.template rate_of<Channel>(i); }
   };
 
-  // Defaults of the members of a state.  Its channel must define FIELD, the name of the custom property, with a number
-  // behind it if MOST > 1; KEYWORD or Room; count(type), the number of states of a type; and process(type, k, rho0, cv, dt),
-  // which returns the Numbers of state k for a time step.
+  // Defaults of the members of a state.  The channel must define: FIELD, the name of the custom property (with MOST > 1, the
+  // number of the state follows this name); KEYWORD or Room; count(type), the number of states of a type; and process(type,
+  // k, rho0, cv, dt), which returns the Numbers of state k for a time step.
 
   struct BaseState {
     static constexpr int MOST = 1;    // of a particle
     static constexpr StateKind KIND = StateKind::PER_MASS;
-    // Keyword of the atom style that makes room, with a number N if MOST > 1; or the channel, earlier in the list, whose
-    // keyword makes room: data files then have the state in the last of the N columns of that channel.
+    // KEYWORD: keyword of the atom style that makes room, with a number N if MOST > 1.  Or Room: an earlier channel of the
+    // list, whose keyword makes room; then data files have the state in the last of the N columns of the earlier channel.
     static constexpr const char *KEYWORD = nullptr;
     using Room = void;
     static constexpr bool GHOSTS = false;        // ghosts have the state
     static constexpr bool READS_RATE = false;    // advance() reads the rate of the temperature
-    // coefficient that replaces a state whose time(type, k) is far below the time step; nullptr: none
+    // Coefficient to use instead of a state whose time(type, k) is far below the time step; nullptr: none
     static constexpr const char *INSTEAD = nullptr;
 
-    // Return pressure over density; energy, elastic for StateKind::STRAIN; heat per mass and time that the energy becomes
+    // Return pressure over density; the energy, elastic for StateKind::STRAIN; the heat of this energy per mass and time
     template <class Site> SPH_FUNCTION static double pressure(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double energy(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double heat(const Site &) { return 0.0; }
-    // Set the state of a particle that may be new, with state 0; not called for StateKind::STRAIN.  temperature = that of
-    // the new particle; negative: the particle has its internal energy already
+    // Set the state of a particle if the particle is new (state 0); not called for StateKind::STRAIN.  Argument: temperature
+    // of the new particle; negative: the particle already has its internal energy
     template <class Site> SPH_FUNCTION static void begin(const Site &, double) {}
-    // Advance by a time step; rate of the temperature at constant states; noise = of strength noise(), or 0
+    // Advance by a time step.  Arguments: rate of the temperature at constant states; noise of strength noise(), or 0
     template <class Site> SPH_FUNCTION static void advance(const Site &, double, double) {}
     template <class Numbers> static double noise(const Numbers &)
     {
       return 0.0;
     }    // of sqrt(kB T/m) xi
-    // Return what all states of a type add to the square of the speed of sound, with a time step
+    // Return the sum that all states of a type add to the square of the speed of sound, with a time step
     static double stiffness(const double *, double, double) { return 0.0; }
   };
 
@@ -113,14 +113,14 @@ namespace SPHDissipation {
     typename Channel::Numbers of[Channel::MOST] = {};
   };
 
-  // The states of a channel as data, for code that only stores and moves them
+  // The states of a channel as data, for code that only stores and moves states
   struct StateInfo {
     const char *name, *field, *keyword;
     StateKind kind;
     int first, most;    // places of its states
     int owner;          // first place of the channel whose keyword makes room
     bool ghosts;
-    // For a type with these coefficients by keyword: number of states; time of state k, nullptr without INSTEAD
+    // Return the number of states of a type with these coefficients; the time of state k (nullptr without INSTEAD)
     int (*count)(const double *coeffs);
     double (*time)(const double *coeffs, int k);
     const char *instead;
@@ -157,7 +157,7 @@ namespace SPHDissipation {
                One::INSTEAD}...};
     }
 
-    // Call function(channel) for each channel; function(channel, site) for each state of particle i
+    // Call function(channel) for each channel; call function(channel, site) for each state of particle i
     template <class Function> static void visit(Function &&function) { (function(One()), ...); }
     template <class Rows, class Function>
     SPH_FUNCTION static void each(const Rows &rows, int i, Function &&function)
@@ -182,8 +182,8 @@ namespace SPHDissipation {
       return (noise_of<One>(numbers, slot - first<One>()) + ...);
     }
 
-    // Drop the states that the type of a particle does not have; return bits of their places.  A state -1, from a data file,
-    // is in the column of another channel: in its last column that is > 0 and that the type does not need.
+    // Drop the states that the type of a particle does not have; return the bits of the dropped places.  A state -1 comes
+    // from a data file: its number is in the last column of another channel that is > 0 and that the type does not need.
     template <class Rows> static int keep(const Rows &rows, int i)
     {
       int others = 0;
@@ -246,9 +246,10 @@ namespace SPHDissipation {
     }
   };
 
-  // Return the number per mass that a particle of this mass and density hands on of a state where it splits or merges;
-  // return the state of a particle that gets this number, for a density at rest minus its ratio to the density that the next
-  // forces find; return the state of a particle whose mass is multiplied with a factor, at the same volume
+  // handed_on(): return the number per mass that a particle of this mass and density hands on when it splits or merges.
+  // taken_over(): return the state of a particle that gets this number; for a density at rest, minus its ratio to the
+  // density that the next forces find.  rescaled(): return the state after the mass was multiplied by a factor at the same
+  // volume.
 
   inline double handed_on(StateKind kind, double state, double mass, double rho)
   {

@@ -47,8 +47,8 @@ void StiffStage::configure(const ViscousSettings &settings_in, int groups_in,
 }
 
 /* ----------------------------------------------------------------------
-   Set acting to keep * now + scale * (f - own), from the forces of other styles, f - own; set increment to acting before
-   less keep * now.
+   Set increment to the old acting less keep * now; then set acting to keep * now + scale * (f - own), where f - own are the
+   forces of other styles.
 ------------------------------------------------------------------------- */
 
 static void carry(double scale, const double *f, const double *own, const double *now, double keep,
@@ -194,8 +194,8 @@ void StiffStage::resize()
 }
 
 /* ----------------------------------------------------------------------
-   Find the unknown particles and bodies, their masses, and velocities before.  The spin of a particle without inertia does
-   not change: there are no torques then.
+   Find the unknown particles and bodies, their masses, and their velocities before the step.  Particles without inertia have
+   no torques: their spin does not change.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::find_unknowns(const double *inertia)
@@ -227,8 +227,8 @@ void ViscousStage::find_unknowns(const double *inertia)
 }
 
 /* ----------------------------------------------------------------------
-   Take the forces of other styles from vest, and set vest to the guess of the integrator; to v- where the order of the
-   particles may have changed, and at the start of a run, to which vest carries no forces.
+   Take the forces of other styles from vest, and set vest to the guess of the integrator.  If the order of the particles may
+   have changed, set vest to v-; so at the start of a run, where vest has no forces.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_guess()
@@ -294,7 +294,7 @@ void ViscousStage::gather()
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocities of owned and ghost particles for the loops; 0, since they are increments, if a particle is not unknown.
+   Set the velocities of owned and ghost particles for the loops.  These are increments: known particles have 0.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_velocities(const Unknowns &values)
@@ -331,7 +331,7 @@ void ViscousStage::set_bulk_term()
 }
 
 /* ----------------------------------------------------------------------
-   Note the values of boundary particles for increments of 0 in the fluid, to subtract them later.
+   Note the values of boundary particles at increments of 0 in the fluid; friction() subtracts these values.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::find_rest()
@@ -411,9 +411,9 @@ void StiffStage::sum(double *values, int n) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the square of the scale of the residual.  It includes a velocity that moves particles by the rounding error of
-   positions, so that a smaller residual needs no iteration.  Bodies, which may be heavy, do not count: the accuracy is that
-   of the velocities of the fluid.
+   Return the square of the scale of the residual.  The scale includes the velocity that moves particles by the rounding
+   error of positions: a smaller residual needs no iteration.  Bodies do not count, since they may be heavy: the tolerance
+   holds for the velocities of the fluid.
 ------------------------------------------------------------------------- */
 
 double ViscousStage::scale_sq() const
@@ -499,9 +499,9 @@ void StiffStage::step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   Find y_b at the start of a run, where y belongs to the time of the positions: extrapolate from y_b of two intervals, so
-   that y_b is y to second order.  With these intervals, the half kick removes all of a stiff motion; y_b of the trapezoidal
-   step needs twice the interval of the other schemes.
+   Find y_b at the start of a run, where y belongs to the time of the positions.  Extrapolate from y_b of two intervals: then
+   y_b is y to second order.  With these intervals, the half kick removes all stiff motion; the trapezoidal step needs twice
+   the interval of the other schemes.
 ------------------------------------------------------------------------- */
 
 void StiffStage::start()
@@ -546,8 +546,8 @@ void StiffStage::sdirk2_step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   Return a lower estimate of the rate of the fastest mode, by power iteration from a vector without order.  It may be faster
-   than on lattices where particles are disordered or, with their large volumes, near a free surface.
+   Return a lower estimate of the rate of the fastest mode, by power iteration from a disordered vector.  The rate may be
+   larger than on lattices where particles are disordered, and near free surfaces, where volumes are large.
 ------------------------------------------------------------------------- */
 
 double StiffStage::estimated_rate()
@@ -670,8 +670,8 @@ double StiffStage::memory_usage() const
 }
 
 /* ----------------------------------------------------------------------
-   Find T_b, and change esph and desph_before accordingly.  At the start of a run, desph_before is the energy that the step
-   before has added after its forces; later it is the rate with which the energy has gone on by half a step from the middle.
+   Find T_b, and change esph and desph_before accordingly.  At the start of a run, desph_before is the energy that the last
+   step added after its forces; later it is the rate for the advance of the energy from the middle of the step to its end.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::run(int prescribed_in)
@@ -698,10 +698,10 @@ void TemperatureStage::run(int prescribed_in)
 }
 
 /* ----------------------------------------------------------------------
-   Find the unknown particles, their heat capacities, temperatures before, and the heat of pressure.  The temperature belongs
-   to an energy and to the present density: elastic work is no source of heat, and its part since the middle of the step is
-   taken back.  The scheme euler has the temperature of the end of the interval, but the pressure needs that of its middle:
-   so the work of the thermal pressure counts half, which keeps sound undamped.
+   Find the unknown particles, their heat capacities, their temperatures before the step, and the heat of pressure.  The
+   temperature follows from the energy and the present density.  Elastic work is not heat: subtract its part since the middle
+   of the step.  The scheme euler has the temperature at the end of the interval, but the pressure needs the temperature in
+   the middle: count half of the work of the thermal pressure, so that sound is not damped.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::find_unknowns()
@@ -778,7 +778,7 @@ void TemperatureStage::send_temperatures()
 }
 
 /* ----------------------------------------------------------------------
-   Set out = Lambda in, for increments of the temperature, which are 0 where the temperature is prescribed.
+   Set out = Lambda in, for increments of the temperature.  Increments of prescribed temperatures are 0.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
@@ -799,8 +799,8 @@ void TemperatureStage::friction(const Unknowns &in, Unknowns &out)
 }
 
 /* ----------------------------------------------------------------------
-   Return the square of the scale of the residual.  It includes the rounding error of temperatures, so that a smaller
-   residual needs no iteration.
+   Return the square of the scale of the residual.  The scale includes the rounding error of temperatures: a smaller residual
+   needs no iteration.
 ------------------------------------------------------------------------- */
 
 double TemperatureStage::scale_sq() const
@@ -813,7 +813,7 @@ double TemperatureStage::scale_sq() const
 }
 
 /* ----------------------------------------------------------------------
-   Find T_b at the start of a run; with euler by a step to the middle of the first interval, which makes no new extremum.
+   Find T_b at the start of a run; with euler, by a step to the middle of the first interval: it makes no new extremum.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::start()

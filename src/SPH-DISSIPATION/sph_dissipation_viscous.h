@@ -41,9 +41,9 @@ namespace SPHDissipation {
 
     bool trapezoidal() const { return mode == Viscous::IMPLICIT && scheme == Scheme::TRAPEZOIDAL; }
 
-    // Return true if the force is the mean of a decay over the whole time step: in a longer step it overshoots, and above
-    // twice the step it adds kinetic energy.  The force of the trapezoidal step is that of one moment: the next step removes
-    // the excess.
+    // Return true if the force is the mean of a decay over the whole time step.  Such a force overshoots in a longer step,
+    // and adds kinetic energy in a step of more than twice the length.  The force of the trapezoidal step belongs to one
+    // moment: the next step removes the excess.
 
     bool force_is_a_mean() const { return mode != Viscous::EXPLICIT && !trapezoidal(); }
 
@@ -55,9 +55,9 @@ namespace SPHDissipation {
     }
     bool operator!=(const ViscousSettings &b) const { return !(*this == b); }
 
-    // Return the time of the first guess of the velocity in the forces, in half steps after the middle of the step.  Best,
-    // if the velocity is smooth, is the time whose velocity the friction of the scheme has; the stages of RKL2 begin in the
-    // middle, and noise is not smooth.
+    // Return the time for the first guess of the velocity in the forces, in half steps after the middle of the step.  For a
+    // smooth velocity, the best time is the one whose velocity the friction of the scheme has.  The stages of RKL2 begin in
+    // the middle; with noise, the velocity is not smooth.
 
     double extrapolation(bool noise) const
     {
@@ -77,12 +77,12 @@ namespace SPHDissipation {
   //   trapezoidal:  y_b = (y- + y+)/2
   //   euler:        y_b = y+
   //   sdirk2:       y_b = (1 - gamma) Y1 + gamma Y2 of its two stages
-  // In the first half step of a run, y- belongs to the time of the positions: y_b is y- to second order in the time step,
-  // less the fast modes that would not be stable, see start().
+  // In the first half step of a run, y- belongs to the time of the positions.  There y_b is y- to second order in the time
+  // step, without the fast modes that would be unstable, see start().
 
   class StiffStage : public Stage {
    public:
-    // where = text of messages behind the number of the step
+    // where = text after the number of the step, in messages
     StiffStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
         Stage(lmp, engine, exchange), where(where)
     {
@@ -103,7 +103,7 @@ namespace SPHDissipation {
 
     void begin_run();    // solve_step() calls it in a setup
 
-    // Set forces, torques and heat of LAMMPS aside, with forces and torques zero afterwards; bring them back
+    // Set forces, torques and heat of LAMMPS aside, and set forces and torques to zero; bring them back
     void set_aside();
     void restore();
 
@@ -169,12 +169,12 @@ namespace SPHDissipation {
     double estimated_rate();
   };
 
-  // Large viscosities.  Unknown are the velocities, and spins, of the fluid particles that the integrators move, and the
+  // Large viscosities.  The unknowns are the velocities and spins of the fluid particles that the integrators move, and the
   // velocities of bodies that the fluid moves.  This stage sets v_b as the velocity in the forces (vest, omegaest), on owned
   // and ghost atoms.  One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
   //
-  // F contains the forces of other styles, which come after the pair style: F has those of the step before, and none in the
-  // first half step of a run.
+  // F contains the forces of other styles.  LAMMPS computes these after the pair style: so F has their values of the step
+  // before, and 0 in the first half step of a run.
 
   class ViscousStage : public StiffStage {
    public:
@@ -185,16 +185,16 @@ namespace SPHDissipation {
     {
     }
 
-    // Called by the integrator at the beginning of a step for a particle that it has moved: set vest, or omegaest, to
-    // v + dt/m times the forces of other styles, which travels with the particle until begin() replaces it by the guess of
-    // v_b.  keep: 0 if v is added later, else 1
+    // Called by the integrator at the beginning of a step for a particle that it has moved: set vest, or omegaest, to v +
+    // dt/m times the forces of other styles.  This value migrates with the particle, until begin() replaces it by the guess
+    // of v_b.  keep: 0 if v is added later, else 1
 
     void begin_carrying();    // before the next two, which threads may call for different particles
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
 
-    // One step: begin() sets the forces aside and vest to the guess of v_b; the passes run; run() finds v_b and brings the
-    // forces of begin() back; the passes run with v_b.  Particles with a bit of prescribed are not unknown; omegaest and
+    // One step: begin() sets the forces aside and sets vest to the guess of v_b; the passes run; run() finds v_b and brings
+    // the forces back; the passes run with v_b.  Velocities of particles with a bit of prescribed are known; omegaest and
     // inertia: nullptr without spins
 
     void begin(int prescribed, double **omegaest, const double *inertia);
@@ -206,7 +206,7 @@ namespace SPHDissipation {
           bytes(others, ahead, ahead_spin, rest);
     }
 
-    // Return the scale of the residual, from velocities relative to their mean before the step and in the solution
+    // Return the scale of the residual, from the velocities before the step and in the solution, relative to their mean
     double scale_sq() const override;
 
    private:
@@ -222,7 +222,7 @@ namespace SPHDissipation {
     Unknowns others;        // forces of other styles
     double mean[3] = {};    // velocity
 
-    // increments of the integrator's guess over v-, spin-, by the order of particles when carry_force() was called
+    // increments of the integrator's guess over v- and spin-, in the order of the particles at carry_force()
 
     std::vector<double> ahead, ahead_spin;
 
@@ -244,11 +244,11 @@ namespace SPHDissipation {
     void add_velocities(const Unknowns &increment);
   };
 
-  // Stiff conduction of heat, C dT/dt = R - Lambda T with the heat capacities C and the flows of heat of the pairs.  Unknown
-  // are the temperatures of the particles that conduct and whose energy the integrators advance.  This stage sets T_b as the
-  // temperature in conduction and pressure, by the internal energy of owned atoms during the forces, and desph_before, so
-  // that the energy at the end of the step is that of the flows at T_b.  R is all other heat, from the last pass 2 with the
-  // velocities of the step.
+  // Stiff conduction of heat, C dT/dt = R - Lambda T, with the heat capacities C and the flows of heat of the pairs.  The
+  // unknowns are the temperatures of the particles that conduct and whose energy the integrators advance.  During the
+  // forces, this stage sets the internal energy of owned atoms, so that conduction and pressure have T_b.  It also sets
+  // desph_before, so that the energy at the end of the step contains the flows at T_b.  R is all other heat, from the last
+  // pass 2 with the velocities of the step.
 
   class TemperatureStage : public StiffStage {
    public:
@@ -267,7 +267,7 @@ namespace SPHDissipation {
       return StiffStage::memory_usage() + bytes(flow, temperature);
     }
 
-    // Return the scale of the residual, from temperatures relative to their mean before the step and in the solution
+    // Return the scale of the residual, from the temperatures before the step and in the solution, relative to their mean
     double scale_sq() const override;
 
    private:

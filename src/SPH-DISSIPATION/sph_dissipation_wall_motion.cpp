@@ -99,8 +99,8 @@ void WallMotion::demand_finite() const
 
 /* ----------------------------------------------------------------------
    Set values and rates at the start of a run.  Variables that are functions of time get their rate from the values in the
-   next steps.  Variables that depend on the particles are not known in advance: they keep the rate of the last step of a
-   run, and so do variables that no longer change.
+   next steps.  Variables that depend on the particles are not known in advance: they keep the rate of the last step of the
+   last run, as variables that no longer change do.
 ------------------------------------------------------------------------- */
 
 void WallMotion::start()
@@ -120,8 +120,8 @@ void WallMotion::start()
 }
 
 /* ----------------------------------------------------------------------
-   Set the rates to the changes over the step before this one of the parabola through the present values and those of the
-   next two steps.  In a run of no steps, ramp() of variables would have no slope.
+   Lay a parabola through the present values and those of the next two steps.  Set the rates to its change over the previous
+   step.  In a run of no steps, ramp() of variables would have no slope.
 ------------------------------------------------------------------------- */
 
 void WallMotion::estimate_rates()

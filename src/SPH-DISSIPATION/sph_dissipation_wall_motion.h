@@ -46,8 +46,8 @@ namespace SPHDissipation {
     void move_point();                // with the wall
     bool has_variables() const { return any_variable; }
 
-    // Write and read the point on the axis in restart files, and the given rotation: the point is valid only if the input
-    // has the same rotation
+    // Write and read the point on the axis in restart files, and the given rotation.  The point is valid only if the
+    // rotation is the same in the input
 
     static constexpr int NRESTART = 9;
     bool rotates() const { return rotation_given; }

@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_WALL_TERMS_H
 #define LMP_SPH_DISSIPATION_WALL_TERMS_H
 
-// Motion of a rigid wall; sums over the fluid around a boundary particle, and the values of the particle that follow:
-// S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012), with the extension of velocity, spin and temperature
+// Motion of a rigid wall; sums over the fluid around a boundary particle; values of the particle from these sums, as
+// S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012).  In addition, velocity, spin and temperature continue
 // behind the surface.  No LAMMPS include.
 
 #include "sph_dissipation_rows.h"
@@ -27,17 +27,17 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Extrapolation of a field q of the fluid behind a surface, by a least-squares fit with weights d^2, where d are the
-  // distances of fluid particles from the surface; next to the surface, q/d is no slope.  The fit needs the means <q d^3>,
-  // <q d^4>, and those of d^3 to d^6.  The weights decide how fast viscous forces damp differences from one layer of
-  // particles to the next: with these, not faster than inside of the fluid.  Each distance is at least CLOSEST spacings of
-  // the particles, their mean at least CLOSEST_MEAN, that of the first layer on lattices.
+  // Extrapolation of a field q of the fluid behind a surface, by a least-squares fit with weights d^2.  d = distance of a
+  // fluid particle from the surface; for small d, q/d is not a slope.  The fit needs the means <q d^3>, <q d^4>, and those
+  // of d^3 to d^6.  With these weights, viscous forces damp differences between layers of particles not faster than inside
+  // of the fluid.  Each distance is at least CLOSEST spacings of the particles; the mean distance is at least CLOSEST_MEAN,
+  // the distance of the first layer on lattices.
 
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
 
-  // Least distance d in surface_factor(), in support radii: the rate of a particle next to the surface, in units of nu/h^2,
-  // then has the same bound with any spacing.  Distance of the first layer of a lattice, in spacings, for unknown surfaces.
+  // CLOSEST_PAIR: least distance d in surface_factor(), in support radii.  So the rate of a particle next to the surface, in
+  // units of nu/h^2, has the same bound with any spacing.  FIRST_LAYER: distance for unknown surfaces, in spacings.
 
   constexpr double CLOSEST_PAIR = 0.05, FIRST_LAYER = 0.5;
 
@@ -57,10 +57,10 @@ namespace SPHDissipation {
     double d3, d4, d5, d6;
 
     // Fit q with zero at the surface: minimize <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2.  The
-    // second term makes the field straight deep in a wall, where only the first layer contributes.  The share alike, by
-    // which <d^6> is raised, makes the field straight where all distances are equal.  The fit of a field without a bend is
-    // exact.  The share is smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next
-    // to the surface.
+    // second term makes the field straight deep in a wall, where only the first layer contributes.  The share alike raises
+    // <d^6>, and makes the field straight if all distances are equal.  The fit of a field without a bend is exact.  The
+    // share is smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next to the
+    // surface.
 
     static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
 
@@ -72,7 +72,7 @@ namespace SPHDissipation {
       return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
     }
 
-    // Share by which the next two fits raise <d^6> or <d^5>: larger, so that the result stays in the range of the fluid
+    // Share by which the next two fits raise <d^6> or <d^5>: larger, so that results stay in the range of the fluid
 
     static constexpr double DAMPING = 0.1;
 
@@ -104,15 +104,15 @@ namespace SPHDissipation {
     double omega[3];       // angular velocity of the rigid body of w
   };
 
-  // Type of the sums below: a number; in the loops a vector, wrapped because compilers warn of it as template argument
+  // Type of the sums below: a number; in the loops a vector (wrapped, since compilers warn of a vector as template argument)
 
   struct OneNumber {
     typedef double type;
   };
 
   // Sums over the fluid particles f around a boundary particle w, of V_f W(r_wf) times the quantity; S. Adami et al.,
-  // J. Comput. Phys. 231, 7057 (2012).  relative: to the velocity of the rigid body of w at f; d: distance of f from the
-  // surface
+  // J. Comput. Phys. 231, 7057 (2012).  Relative velocities are relative to the rigid body of w at f; d: distance of f from
+  // the surface
 
   template <class Number> struct BoundarySums {
     typedef typename Number::type Real;
@@ -134,7 +134,7 @@ namespace SPHDissipation {
 
   struct BoundarySum : BoundarySums<OneNumber> {};
 
-  // The same sums over those fluid particles alone that conduct heat
+  // The same sums over only the fluid particles that conduct heat
 
   template <class Number> struct BoundaryHeatSums {
     typedef typename Number::type Real;
@@ -209,9 +209,10 @@ namespace SPHDissipation {
     double gravity[3];
   };
 
-  // A fluid particle is inside a wall if boundary particles fill more than this part of its near support, a few particle
-  // spacings wide, the least that a fluid has.  They fill half of it at a plane surface, 7/8 in the corner of a box, and
-  // more only inside.  A larger support would be as full in a pore as wide as the particle itself.
+  // A fluid particle is inside a wall if boundary particles fill more than this part of its near support.  The near support
+  // is the smallest support of a fluid, a few particle spacings wide.  Boundary particles fill half of it at a plane
+  // surface, 7/8 in the corner of a box, and more only inside.  A larger support is as full in a pore of the width
+  // of a particle.
 
   constexpr double INSIDE_WALL = 0.9;
 
@@ -229,8 +230,8 @@ namespace SPHDissipation {
     return {vol * weight_norm * whole_power(support / radius, dim), 1.0 / radius};
   }
 
-  // Repulsion of the surfaces with thermal noise or free surfaces: a fluid particle has the energy k s^2/2.  s is the part
-  // of a support of CONTACT spacings that boundary particles fill, less 1/2.  They fill 1/2 at the surface and at least 0.96
+  // Repulsion of the surfaces with thermal noise or free surfaces: a fluid particle has the energy k s^2/2.  s = part of a
+  // support of CONTACT spacings that boundary particles fill, less 1/2.  This part is 1/2 at the surface and at least 0.96
   // inside of lattices.
 
   constexpr double CONTACT = 1.7;
@@ -294,7 +295,7 @@ namespace SPHDissipation {
     return pressure;
   }
 
-  // Factors that turn sums with powers of the distance into means, sum.weight > 0; the means of the powers
+  // Factors that turn sums with powers of the distance into means (sum.weight > 0); the means of the powers
 
   struct DistanceNorms {
     double d, d3, d4;
@@ -315,8 +316,8 @@ namespace SPHDissipation {
              norm_d4 * stretch * stretch * sum.d6}};
   }
 
-  // Continue velocity and spin of the fluid behind the surface by the boundary condition: add them to u and spin (nullptr:
-  // none) of a wall particle, which begin with those of the wall; sum.weight > 0
+  // Continue velocity and spin of the fluid behind the surface by the boundary condition: add them to u and spin of a wall
+  // particle, which begin with velocity and spin of the wall (spin: nullptr without spins); sum.weight > 0
 
   SPH_FUNCTION void extend_motion(const WallCondition &condition, const Surface &surface,
                                   const BoundarySum &sum, double *u, double *spin)
@@ -328,8 +329,8 @@ namespace SPHDissipation {
     const double *const normal = surface.normal;
     const double depth = surface.depth;
 
-    // Across the surface the velocity is zero, with no-slip its slope as well: the image of the mean is enough, and needs no
-    // smaller time step
+    // The velocity across the surface is zero at the surface; with no-slip, its slope is zero as well: the image of the mean
+    // is enough, and needs no smaller time step
 
     const double mirrored = (depth < mean_d) ? depth / mean_d : 1.0;
     const double across = inner_product(sum.u, normal) * norm;
@@ -363,10 +364,10 @@ namespace SPHDissipation {
   }
 
   // Return the values of a wall particle of volume vol in the conduction of heat, sum.weight > 0.  value = heat per area and
-  // time, or temperature at the surface: then the temperature of the fluid continues behind the surface as the velocity
-  // along it does, and the conductivity is the mean of the fluid around.  An adiabatic particle has the temperature at which
-  // it gets no heat.  Pairs across the surface belong to both sides of it and conduct heat along it for both: so an
-  // adiabatic particle has half of its volume.
+  // time, or temperature at the surface.  With a temperature, the field of the fluid continues behind the surface, as the
+  // velocity along the surface does, and the conductivity is the mean of the fluid around.  An adiabatic particle has the
+  // temperature at which it gets no heat.  Pairs across the surface conduct heat along it for both sides: so an adiabatic
+  // particle has half of its volume.
 
   SPH_FUNCTION FlowRow wall_conductor(WallHeat heat, double value, double vol, double conductivity,
                                       const Surface &surface, const BoundaryHeatSum &sum)
@@ -386,8 +387,8 @@ namespace SPHDissipation {
   // Return the heat per time that the fluid particle f gets from the surface by a wall particle w, r = x_w - x_f.  The sum
   // of 2 V_f V_w F |r.n| over all pairs is the area of the surface, if n is the normal where the pair crosses the surface:
   // the integral of F z^2 over one half of space is 1/2.  C = divergence of the normals over the dimensions of the surface.
-  // hollow, C < 0: n is on average that in the middle, n_w - C r/2 along the surface.
-  // convex: n is that of a sphere of radius 1/C + depth, (n_w - C s r)/(1 + C depth), of length 1 at the part s of the way.
+  // hollow, C < 0: n is on average the normal in the middle, n_w - C r/2 along the surface.
+  // convex: n is the normal of a sphere of radius 1/C + depth, (n_w - C s r)/(1 + C depth), of length 1 at the part s of r.
   // V_w is the reference volume times flux_factor(): then the sum is exact on cubic lattices.
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
@@ -405,17 +406,17 @@ namespace SPHDissipation {
     return 2.0 * flux * vol_f * surface.flux_volume * slope * seen;
   }
 
-  // Return the factor by which the sum of surface_heat() over a cubic lattice is too small: the volumes V = 1/c are too
-  // small by the one sum, the sum of F z^2 differs from its integral by the other
+  // Return the factor by which the sum of surface_heat() over a cubic lattice is too small.  One sum corrects the volumes
+  // V = 1/c, which are too small; the other sum corrects the difference between the sum of F z^2 and its integral
 
   inline double flux_factor(const LatticeSums &sums)
   {
     return sums.zeroth / sums.second;
   }
 
-  // Set the values of wall particle i, with this acceleration, in pass 2, extrapolated from the fluid; sum.weight > 0.  The
-  // ratio of density and reference density is that of the fluid: so the particle has the volume that a fluid particle would
-  // have in its place, with any fluids around.  A wall does not pull on a fluid without tension.
+  // Set the values of wall particle i, with this acceleration, for pass 2, extrapolated from the fluid; sum.weight > 0.  The
+  // ratio of density and reference density is that of the fluid: so the particle has the volume of a fluid particle in its
+  // place, with any fluids around.  A wall does not pull on a fluid without tension.
 
   template <class Rows>    // ParticleRows
   SPH_FUNCTION void extend_fluid(const Rows &rows, int i, const WallCondition &condition,
@@ -430,8 +431,8 @@ namespace SPHDissipation {
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }
 
-  // Set the excess of a boundary particle: its velocity and spin (nullptr: none) in pass 2 less its own velocity u and the
-  // spin of its rigid body
+  // Set the excess of a boundary particle: velocity and spin (nullptr: none) in pass 2, less its own velocity u and the spin
+  // of its rigid body
 
   SPH_FUNCTION void set_excess(Excess &excess, const Particle &particle, const double *u,
                                const double *spin, const Surface &surface)
