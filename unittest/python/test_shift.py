@@ -463,6 +463,23 @@ def test_mixing_flow(lammps, n, re, keywords, low, high):
     assert low < table["v_ratio"][-1] < high
 
 
+# shear, c0 over U, pb over rho0 U^2, keywords: amplitude over the exact one
+YIELDING = {("mg", 7, 0, ""): 0.89, ("mg", 15, 0, ""): 0.82, ("mg", 30, 0, ""): 0.71, ("mg", 15, 1, ""): 0.77, ("mg", 15, 3, ""): 0.70,
+            ("mg", 15, 10, ""): 0.49, ("mg/fr2", 7, 0, ""): 0.84, ("mg/fr2", 30, 0, ""): 0.67, ("mg/fr2", 15, 1, ""): 0.73, ("mg/fr2", 15, 3, ""): 0.65,
+            ("mg/fr2", 15, 10, ""): 0.46, ("mg/fr2", 15, 1, "shift auto"): 0.97, ("mg/fr2", 15, 3, "shift auto"): 0.93}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("shear, c0, pb, keywords", YIELDING)
+def test_weak_solid(lammps, shear, c0, pb, keywords):
+    """The arrangement of the particles resists a flow that mixes: the table of the page of limits."""
+    text = MIXING.format(n=48, rows=28, re=16, keywords=keywords).replace("shear mg/fr2", f"shear {shear}")
+    text = text.replace(" 15.0 ", f" {c0} ").replace("0.0 $(3*v_spacing)", f"0.0 $(3*v_spacing) pb {pb}").replace("/15)", f"/{c0})")
+    table = lammps(text, timeout=300).thermo()[-1]
+    print(f"amplitude over the exact one {table['v_ratio'][-1]:.4f}")
+    assert table["v_ratio"][-1] == pytest.approx(YIELDING[shear, c0, pb, keywords], abs=0.025)
+
+
 # ---------------------------------------------------------------------------------------------
 # bad input
 
