@@ -43,7 +43,7 @@ def main():
 
     kappas = ("0.2",) if args.quick else ("2.0", "0.2", "0.02")
     sizes = (8, 16) if args.quick else (8, 16, 32)
-    supports = ("4.5", "6")
+    supports = ("3", "4")
     jobs = {f"5-{n}-{support}": {"n": n, "support": support} for n in reversed(sizes) for support in supports}
     jobs.update({"8": {}, "7": {}, "6": {}, "4": {}})
     jobs.update({f"3-{kappa}": {"kappa": kappa} for kappa in kappas})
@@ -106,7 +106,7 @@ def main():
     error = {support: [log(f"5-{n}-{support}")["v_error"][-1] for n in sizes] for support in supports}
     for support, values in error.items():
         print(f"5: rc = {support} spacings: " + ", ".join(f"n = {n}: {100 * e:.2f} %" for n, e in zip(sizes, values)))
-    example.merit("5: error with 16 rows", error["4.5"][1], 0, 0.008)
+    example.merit("5: error with 16 rows", error["3"][1], 0, 0.008)
 
     def channel(axes):
         for support, values in error.items():
