@@ -19,6 +19,8 @@ from upstream import STYLES      # noqa: E402
 
 README = EXAMPLES / "README.md"
 PAGE = PAGES / "Howto_sph_gallery.rst"
+# topics of the page that come first, flows that one sees at once; the others follow in the order of the table
+FLOWS = ("Free surfaces", "Open boundaries", "Bodies", "Two fluids", "Turbulence", "Angular momentum", "Walls", "Heat")
 
 
 def styles(name):
@@ -58,17 +60,18 @@ def readme():
 
 
 def page():
+    """a grid of small pictures, pages.css; a click on one shows all of it, as Sphinx does for pictures with a width"""
     text = [".. tools/gallery.py makes this page of examples/examples.csv", "", "Gallery", "=======", "",
             "Each picture is that of an example, which the command below it runs, compares with its reference, and draws.",
-            "Particles are those of the largest run; the processor time is that of all runs together.",
+            "Particles are those of the largest run; the processor time is that of all runs together.", "A click on a picture enlarges it.",
             ":doc:`Howto_sph_looking` says how to make pictures of a flow of your own.", ""]
-    for topic, rows in topics():
-        text += [topic, '"' * len(topic), ""]
+    for topic, rows in sorted(topics(), key=lambda item: FLOWS.index(item[0]) if item[0] in FLOWS else len(FLOWS)):
+        text += [topic, '"' * len(topic), "", ".. container:: gallery", ""]
         for row in rows:
             name = row["example"]
-            text += [f".. figure:: ../../examples/{name}/{row['picture']}", f"   :width: {70 if row['picture'].endswith('.gif') else 100}%", f"   :alt: {title(name)}", "",
-                     f"   **{title(name)}**: {row['shows']}.", f"   Dimension {row['dimension']}, {row['particles']} particles, {row['processor time']}.",
-                     f"   Styles: {', '.join(f'*{style}*' for style in styles(name))}.", f"   ``./sphd run {name}``", ""]
+            text += [f"   .. figure:: ../../examples/{name}/{row['picture']}", "      :width: 100%", f"      :alt: {title(name)}", "",
+                     f"      **{title(name)}**: {row['shows']}.", f"      Dimension {row['dimension']}, {row['particles']} particles, {row['processor time']}.",
+                     f"      Styles: {', '.join(f'*{style}*' for style in styles(name))}.", f"      ``./sphd run {name}``", ""]
     return "\n".join(text)
 
 

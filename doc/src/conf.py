@@ -34,6 +34,7 @@ else:
     html_theme = "alabaster"
     html_theme_options = {"page_width": "1250px", "body_max_width": "none", "sidebar_width": "250px"}
 html_static_path = ["_static"]
+html_favicon = "_static/favicon.svg"
 html_css_files = ["pages.css"]
 html_js_files = ["copy.js"]
 html_title = f"SPH-DISSIPATION {release}"

@@ -18,17 +18,17 @@ from run_lammps import Example, csv_rows, frames, pyplot, save      # noqa: E402
 
 PLANE = (12, 24, 48)        # rows between the plates
 CIRCULAR = (10, 20, 40)     # rings between the cylinders
-SUPPORT = 5.0               # radius over particle spacing
+SUPPORT = 3.0               # radius over particle spacing
 PLANE_TIMES = (0.02, 0.05, 0.1, 0.2, 1.0)   # over gap^2/nu
 CIRCULAR_TIMES = (0.02, 0.05, 0.1, 0.2, 0.8)
 MU = 0.1            # of the plane flow, as in the input
 EARLY = 0.1         # errors of the start-up are those at this time
-SMALL = 0.005       # relative L2 errors of the finest runs, at this time and in the steady state
-TORQUE = 0.02       # steady stress or torque over the exact one, minus 1, of the finest runs
-BALANCE = 0.005     # sum of both over the second one, minus that of the exact solution
+SMALL = 0.001       # relative L2 errors of the finest runs, at this time and in the steady state
+TORQUE = 0.002       # steady stress or torque over the exact one, minus 1, of the finest runs
+BALANCE = 0.001     # sum of both over the second one, minus that of the exact solution
 ORDER = 1.8         # of the steady error between cylinders; QUICK_ORDER: of that between the two coarser ones
 QUICK_ORDER = 1.6
-LINEAR = 0.002      # steady error between plates, at any resolution
+LINEAR = 0.0005      # steady error between plates, at any resolution
 
 
 class Run:

@@ -24,8 +24,9 @@ FLUIDS = {                                  # mu_r, gamma1, alpha; mu = H = 1, f
     "c, spin rate 1": (1.0, 0.5, 1.0),
 }
 RATE = "c, spin rate 1"
-# rows across: support radius over particle spacing, for the Newtonian fluid (shear mg/fr) and the micropolar ones
-SUPPORT = {12: (6.0, 4.0), 25: (6.0, 5.0), 50: (6.0, 6.0), 100: (6.0, 7.0)}
+# rows across: support radius over particle spacing of the micropolar fluids; that of the Newtonian one, with these keywords
+SUPPORT = {12: 4.0, 25: 5.0, 50: 6.0, 100: 7.0}
+NEWTONIAN = {"support": 3.0, "kernel": "quintic", "shear": "mg/fr2"}
 SIZE, SMALL = 50, 0.005     # the relative L2 errors at this size
 SMALL_SPIN = 0.01
 ORDER = 1.0                 # of both errors
@@ -34,7 +35,7 @@ BALANCE = 0.01              # force on the walls over the body force on the flui
 
 
 def support(fluid, n):
-    return SUPPORT[n][FLUIDS[fluid][0] > 0]
+    return SUPPORT[n] if FLUIDS[fluid][0] > 0 else NEWTONIAN["support"]
 
 
 def title(name):
@@ -128,7 +129,7 @@ def main():
     sizes = [n for n in SUPPORT if not args.quick or n <= SIZE]
     keys = [(fluid, n) for n in sizes for fluid in FLUIDS if fluid != RATE or n <= SIZE]
     names = {(fluid, n): f"{fluid.replace(', ', '_').replace(' ', '_')}.n{n}" for fluid, n in keys}
-    example.run({names[fluid, n]: {"n": n, "support": support(fluid, n), "shear": "mg/fr",
+    example.run({names[fluid, n]: {"n": n, "support": support(fluid, n), **(NEWTONIAN if FLUIDS[fluid][0] == 0 else {}),
                                    **dict(zip(("mu_r", "gamma1", "alpha"), FLUIDS[fluid]))} for fluid, n in reversed(keys)})
     runs = {(fluid, n): Run(example.out, names[fluid, n], n, fluid) for fluid, n in keys}
 

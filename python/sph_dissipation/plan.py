@@ -122,9 +122,13 @@ class Plan:
         args = self.args
         self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
-        # under the pressure pb, the lattice of a wave falls apart after less than ten periods with 4
-        args.support = args.support or (6.0 if self.wave else 4.0)
-        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")    # c6 smooths a wave less, and its lattice is stable under pb
+        # mg/fr2 and wendland/c2 are right at three spacings in a flow whose particles are shifted.  A free surface and noise need mg, which
+        # dissipates there with any kappa.  c6 smooths a wave less; under the pressure pb, a lattice of it is stable, with 6 spacings for ten periods
+        flows = not (self.wave or args.column or args.temperature is not None)
+        args.shear = args.shear or ("mg/fr2" if flows else "mg")
+        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")
+        three = flows and (args.shear, args.kernel) == ("mg/fr2", "wendland/c2")
+        args.support = args.support or (6.0 if self.wave else 3.0 if three else 4.0)
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -179,6 +183,8 @@ class Plan:
             self.real = fluids.Fluid(args.rho, None, args.mu, args.kappa)
         if self.wave and args.c in (None, "real") and not args.fluid:
             raise SystemExit("plan: --c real is for --fluid; sound in another one needs its speed after --c")
+        if self.wave and self.real.kappa is None:
+            raise SystemExit("plan: sound is damped by the bulk viscosity as well: give --kappa; 0 is for Stokes' hypothesis")
         if self.wave:
             self.real.c = self.c_fluid if args.c in (None, "real") else args.c
 
@@ -243,7 +249,7 @@ class Plan:
 
     def notes(self):
         args = self.args
-        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:.6g}, velocity {args.velocity:g}, units {self.units}"]
+        lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:.6g}, velocity {args.velocity:g}, units {self.units}{self.kappa_note()}"]
         lines += self.frequency_notes()
         lines += self.wave_notes() if self.wave else self.flow_notes()
         steps = ", ".join(f"{name} {step:.4g}" for name, step in self.limits.items() if step < math.inf)
@@ -258,6 +264,12 @@ class Plan:
                          + ("; NOTE: above 0.1, raise c0 or the particle size" if self.thermal_mach() > 0.1 else ""))
         lines.append(f"particles           {self.number}, {args.particles} across; steps {self.steps}")
         return lines
+
+    def kappa_note(self):
+        """what is taken where no bulk viscosity is given"""
+        if self.real.kappa is not None:
+            return ""
+        return f"; kappa NOT GIVEN: {SHEAR[self.args.shear][1](self.dim) * self.mu:.4g}, what shear {self.args.shear} brings along"
 
     def flow_notes(self):
         args = self.args
@@ -303,7 +315,7 @@ class Plan:
         k = wave.wave_number(s.imag / (2 * math.pi))
         more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
-                     f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB per unit of length"
+                     f"{2 * math.pi * k.imag / k.real:.4g} per wavelength, {20 / math.log(10) * k.imag:.4g} dB{'/m' if self.units == 'si' else ' per unit of length'}"
                      + (f"; heat conduction, which this input leaves out, adds {100 * more:.2g} %" if more else ""))
         errors = ", ".join(f"{name} {100 * error:+.2g} %" for name, error in self.wave_errors(s).items())
         lines.append(f"errors              {errors}, of kernel, lattice, and step" if errors else
@@ -419,6 +431,9 @@ class Column(Plan):
         self.explicit = min(self.limits["acoustic"], 1 / rates)
         self.largest = min(self.limits["acoustic"], self.limits["diffusion"]) if self.viscous else self.explicit
         self.dt = float(f"{self.args.fraction * self.largest:.3g}")
+
+    def kappa_note(self):
+        return "" if self.args.fluid or self.args.kappa is not None else f"; kappa NOT GIVEN: {self.kappa:.4g}, which damps sound"
 
     def frequency_notes(self):
         return []
@@ -536,7 +551,7 @@ def arguments(argv):
     parser.add_argument("--fluid", help="name in potentials/gases.sph or fluids.sph, in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]")
     parser.add_argument("--rho", type=positive, help="density")
     parser.add_argument("--mu", type=not_negative, help="shear viscosity")
-    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along)")
+    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along, with --column what damps sound; waves of sound need it)")
     parser.add_argument("--units", choices=BOLTZMANN, help="without --fluid (default: lj)")
     parser.add_argument("--length", type=positive, help="of the flow; the box is as wide")
     parser.add_argument("--velocity", type=positive, help=f"the largest of the flow, or of the wave (default: {SOUND_MACH:g} of the speed of sound)")
@@ -550,9 +565,9 @@ def arguments(argv):
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
     parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
-    parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 4, for sound 6)")
+    parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 3 with mg/fr2 and wendland/c2, else 4, for sound 6)")
     parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
-    parser.add_argument("--shear", choices=SHEAR, default="mg", metavar="FORM", help="form of the shear term (default: %(default)s)")
+    parser.add_argument("--shear", choices=SHEAR, metavar="FORM", help="form of the shear term (default: mg/fr2; mg with noise, a free surface, or sound)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")

@@ -192,8 +192,8 @@ namespace SPHDissipation {
       width = columns.width();
     }
     void resize(std::size_t n) { rows.resize(n * width); }
-    double *torque(int i) { return &rows[(std::size_t) i * width]; }
-    const double *torque(int i) const { return &rows[(std::size_t) i * width]; }
+    double *torque(int i) { return rows.data() + (std::size_t) i * width; }
+    const double *torque(int i) const { return rows.data() + (std::size_t) i * width; }
     // Add the heat by channel to heat[]; return the heat of all channels; without the first channel
     void add_heat(int i, double *heat) const
     {

@@ -166,6 +166,7 @@ def test_table_has_each_example():
         assert all(row.values()), row
         assert (ROOT / "examples" / name / row["picture"]).exists(), row
         assert gallery.styles(name), name
+    assert set(gallery.FLOWS) <= {topic for topic, _ in gallery.topics()}
 
 
 def test_animations():
@@ -183,9 +184,16 @@ def test_figures_have_one_style():
         assert not found, (script, found)
 
 
-FIGURE = re.compile(r"^ *\.\. (?:figure|image):: (\S+)\n((?:   .*\n|\n)+)", re.MULTILINE)
+FIGURE = re.compile(r"^(?P<margin> *)\.\. (?:figure|image):: (?P<name>\S+)\n(?P<text>(?:(?P=margin)   .*\n|\n)+)", re.MULTILINE)
+
+
+def figures(page):
+    """[(name, options and caption)]"""
+    return [(found["name"], found["text"]) for found in FIGURE.finditer(page.read_text(encoding="utf-8"))]
+
+
 FIGURES = [pytest.param(name, text, id=f"{page.stem}-{name}") for page in sorted((ROOT / "doc" / "src").glob("*.rst"))
-           for name, text in FIGURE.findall(page.read_text(encoding="utf-8"))]
+           for name, text in figures(page)]
 
 
 @pytest.mark.parametrize("name, text", FIGURES)
@@ -197,7 +205,7 @@ def test_figures_of_pages(name, text):
 
 def test_commands_below_pictures():
     """Each figure of the start page names the example that draws it."""
-    for name, text in FIGURE.findall((ROOT / "doc" / "src" / "Howto_sph_overview.rst").read_text()):
+    for name, text in figures(ROOT / "doc" / "src" / "Howto_sph_overview.rst"):
         assert f"``./sphd run {name.split('/')[-2]}``" in text
 
 

@@ -146,6 +146,59 @@ def test_no_warning_for_a_handful_of_particles(lammps):
 
 
 # ---------------------------------------------------------------------------------------------
+# a steady flow, driven by a force that is a sine wave
+
+DRIVEN = """
+units lj
+dimension {dim}
+atom_style sph/bulk
+lattice {lattice}
+region box block 0 {cells[0]} 0 {cells[1]} {depth}
+create_box 1 box
+create_atoms 1 box
+set group all mass 1.0
+variable k equal 2*PI/ly
+variable nu equal 0.1/v_k/{re}
+pair_style sph/bulk shear {shear}
+pair_coeff * * 1.0 1.0 ${{nu}} intrinsic 3.0 pb 0.02
+neighbor 0.4 bin
+fix FLUID all sph/bulk density rho0
+fix STEP all sph/dt 10
+variable wave atom sin(v_k*y)
+variable force atom ${{nu}}*${{k}}^2*0.1*v_wave
+fix DRIVE all addforce v_force 0 0
+variable ux atom 0.1*v_wave
+velocity all set v_ux 0 0
+variable p atom 10*vx*v_wave
+variable q atom v_wave^2
+compute SUMS all reduce sum v_p v_q
+variable ratio equal c_SUMS[1]/c_SUMS[2]
+fix MEAN all ave/time 5 100 500 v_ratio
+variable time equal time
+variable end equal 8/(${{nu}}*${{k}}^2)
+fix HALT all halt 10 v_time >= ${{end}} error continue message no
+thermo_style custom step f_MEAN
+thermo 500
+run 100000
+"""
+
+
+@pytest.mark.parametrize("name, re, shear, ratio", [
+    ("hex", 2, "mg", 1.078), *((name, 2, "mg/fr2", ratio) for name, ratio in (("hex", 1.013), ("sq", 1.015), ("fcc", 1.010))),
+    *(pytest.param(name, re, "mg/fr2", ratio, marks=pytest.mark.long)
+      for name, ratio in (("hex", 1.013), ("sq", 1.015), ("fcc", 1.010)) for re in (0.5, 10))])
+def test_driven_flow(lammps, name, re, shear, ratio):
+    """Velocity over the exact one, with a support of three spacings."""
+    lattice = {"hex": f"custom 1.0 a1 {(4 / 3)**0.25} 0 0 a2 0 {2 * (3 / 4)**0.25} 0 a3 0 0 1 basis 0.25 0.25 0 basis 0.75 0.75 0",
+               "sq": "sq 1.0 origin 0.5 0.5 0", "fcc": "fcc 1.0 origin 0.25 0.25 0.25"}[name]
+    dim, cells, depth = {"hex": (2, (12, 16), "-0.5 0.5"), "sq": (2, (16, 32), "-0.5 0.5"), "fcc": (3, (5, 20), "0 5")}[name]
+    text = DRIVEN.format(dim=dim, lattice=lattice, cells=cells, depth=depth, re=re, shear=shear)
+    found = lammps(text, timeout=300).thermo()[-1]["f_MEAN"][-2]
+    print(f"velocity over the exact one {found:.4f}")
+    assert found == pytest.approx(ratio, abs=0.007)    # by the places of rows beside each other
+
+
+# ---------------------------------------------------------------------------------------------
 # Taylor-Green vortices
 
 VORTICES = """

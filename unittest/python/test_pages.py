@@ -139,6 +139,21 @@ def test_search_finds_the_page_that_answers(word, page):
     assert re.search(rf"\b{word}", re.sub(r"^\.\. index::.*", "", texts[page], flags=re.MULTILINE), re.IGNORECASE), "the page does not say it"
 
 
+# -- Pages on a code host ------------------------------------------------------------------------------------------
+
+README = (ROOT / "README.md").read_text()
+WITH_LINKS = {"Howto_sph_comparison", "Howto_sph_limits", "Howto_sph_numbers", "Howto_sph_walls", "theory_sph_dissipation"}    # still
+
+
+@pytest.mark.parametrize("page", sorted(set(re.findall(r"doc/src/(\w+)\.rst", README)) - WITH_LINKS))
+def test_first_lines_are_plain_text(page):
+    """README links the sources of pages, and a code host shows the roles of Sphinx as they are: there are none between the title and the first
+    directive or section."""
+    text = re.sub(r"^\.\. index::.*\n\n?", "", (ROOT / "doc" / "src" / f"{page}.rst").read_text(), flags=re.MULTILINE)
+    first = re.split(r"^\.\. |^\"\"\"|^---|^\^\^\^", text, maxsplit=1, flags=re.MULTILINE)[0]
+    assert not re.search(r":\w+:`", first), first
+
+
 # -- Length --------------------------------------------------------------------------------------------------------
 
 LONGEST = 6000

@@ -202,6 +202,17 @@ def test_frequency_of_kappa():
         assert note in text and ("Hz" in text) == bool(note), text
 
 
+def test_a_kappa_that_is_not_given():
+    """... is named in the first line."""
+    for case, note in [(f"--rho 1.2 --mu 0.8 {BOX} --shear mg", "; kappa NOT GIVEN: 1.6, what shear mg brings along"),
+                       (f"--rho 1.2 --mu 0.3 {BOX} --dim 3 --shear espanol", "; kappa NOT GIVEN: 0, what shear espanol brings along"),
+                       ("--rho 1 --mu 1e-3 --column 1", "; kappa NOT GIVEN: 0.12, which damps sound"), ("--rho 1 --mu 1e-3 --kappa 0 --column 1", ""),
+                       ("--fluid water --column 1", ""), (WATER, ""), (f"--rho 1.2 --mu 0.8 --kappa 0 {BOX}", "")]:
+        args = planner.arguments(case.split())
+        first, *others = (planner.Column if args.column else planner.Plan)(args).input().splitlines()
+        assert first.endswith(f"units {'si' if args.fluid else 'lj'}{note}") and "NOT GIVEN" not in "".join(others)
+
+
 def test_proposal():
     """A flow for which the constant does not hold gets the lines of the relaxing form, those that --relax prints."""
     case = "--fluid CO2 --length 1e-5 --velocity 1"
@@ -215,7 +226,8 @@ def test_proposal():
 @pytest.mark.parametrize("case, message", [
     ("--fluid water --length 1", "give --length and --velocity, or"), ("--fluid water --length 1 --wavelength 1", "give --length and --velocity, or"),
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
-    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"),
+    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --wavelength 1 --c 5", "give --kappa"), ("--rho 1 --mu 1 --frequency 1 --c 5", "give --kappa"),
+    ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"),
     ("--rho 1 --mu 1 --column 1 --width 3 --tank 2", "shorter than the column is wide"), ("--rho 1 --mu 1 --column 1 --tank 1", "give --width"),
     ("--rho 1 --mu 1 --column 1 --tank 2", "give --width"), ("--rho 1 --mu 1 --length 1 --velocity 1 --tank 3", "are for --column"),
     ("--rho 1 --mu 1 --column 1 --shear morris", "torque at a free surface"), ("--rho 1 --mu 1 --column 1 --temperature 1", "--temperature is not"), ("--fluid air/101 --wavelength 1", "no fluid air/101"),

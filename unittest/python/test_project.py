@@ -1,7 +1,8 @@
-"""What stands around the code: papers that a run names, version, citation file, forms for reports, workflow."""
+"""What stands around the code: papers that a run names, version, citation file, forms for reports, workflows, the manual by version."""
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -152,9 +153,86 @@ def test_form(form):
         assert ("value" if item["type"] == "markdown" else "label") in item["attributes"]
 
 
-def test_workflow_runs_what_is_there():
-    content = yaml.safe_load((ROOT / ".github" / "workflows" / "test.yml").read_text())
-    commands = [step["run"] for job in content["jobs"].values() for step in job["steps"] if "run" in step]
-    assert ".ci/run" in commands
-    for command in commands:
-        assert os.access(ROOT / command.split()[0], os.X_OK)
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
+def test_workflow_runs_what_is_there(path):
+    """... says when GitHub has run it last, and adds no cache with each commit."""
+    text = path.read_text()
+    jobs = yaml.safe_load(text)["jobs"]
+    assert len(re.findall(r"^# Last run by GitHub: (?:never|\d{4}-\d\d-\d\d, .+)\.$", text, re.MULTILINE)) == 1
+    for job in jobs.values():
+        assert 0 < job["timeout-minutes"] <= 180
+    steps = [step for job in jobs.values() for step in job["steps"]]
+    for command in [step["run"].split()[0] for step in steps if "run" in step]:
+        assert command in ("sudo", "clang-format-14") or os.access(ROOT / command, os.X_OK)
+    for step in steps:
+        if step.get("uses", "").startswith("actions/cache@"):
+            assert "sha" not in step["with"]["key"] and step["with"]["key"].startswith(step["with"]["restore-keys"])
+            for pattern in re.findall(r"'([^']*)'", step["with"]["key"]):
+                assert list(ROOT.glob(pattern))
+
+
+def test_workflows_run_the_tests_and_the_manual():
+    text = "".join(path.read_text() for path in WORKFLOWS)
+    for command in (".ci/run", "./sphd test --kokkos", "./sphd doc", ".ci/pages"):
+        assert f"- run: {command}" in text
+
+
+# -- the manual by version ---------------------------------------------------------------------------------------
+
+
+def test_pages(tmp_path):
+    """A folder for each version in a branch of one commit; what other versions have stays, what is wrong is refused and changes nothing."""
+    clone, origin = tmp_path / "a clone", tmp_path / "origin.git"
+    (clone / ".ci").mkdir(parents=True)
+    shutil.copy(ROOT / ".ci" / "pages", clone / ".ci")
+    (clone / ".gitignore").write_text("/build\n*.log\n")
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")} | {"GIT_CONFIG_NOSYSTEM": "1", "HOME": str(tmp_path)}
+
+    def git(*words):
+        done = subprocess.run(["git", *words], cwd=clone, env=environment, stdout=subprocess.PIPE, text=True, check=True)
+        return done.stdout.split()
+
+    def publish(name, version, content=None):
+        """error"""
+        (clone / "VERSION").write_text(version + "\n")
+        shutil.rmtree(clone / "build", ignore_errors=True)
+        for file in content or []:
+            (clone / "build" / "doc" / file).parent.mkdir(parents=True, exist_ok=True)
+            (clone / "build" / "doc" / file).write_text(version)
+        done = subprocess.run([str(clone / ".ci" / "pages"), name], env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        assert bool(done.returncode) == bool(done.stderr), done.stderr
+        return done.stderr
+
+    def published():
+        return set(git("--git-dir", str(origin), "ls-tree", "-r", "--name-only", "gh-pages"))
+
+    def start():
+        (word,) = re.findall(r'url=(\S+)/"', " ".join(git("--git-dir", str(origin), "show", "gh-pages:index.html")))
+        return word
+
+    git("init", "-q", "-b", "main", "--bare", str(origin))
+    git("init", "-q", "-b", "main", ".")
+    git("remote", "add", "origin", str(origin))
+    site = {".nojekyll", "index.html", "versions.html"}
+    assert not publish("main", "1.0.0-dev", ["index.html", "_static/a.log", ".doctrees/x", "old.html"])
+    assert published() == site | {"dev/index.html", "dev/_static/a.log", "dev/old.html"} and start() == "dev"
+    assert not publish("main", "1.0.0-dev", ["index.html"])
+    assert not publish("v1.9.0", "1.9.0", ["index.html"])
+    assert not publish("v1.10.0", "1.10.0", ["index.html"])
+    assert not publish("v1.9.1", "1.9.1", ["index.html"])
+    everything = site | {f"{version}/index.html" for version in ("dev", "1.9.0", "1.9.1", "1.10.0")}
+    assert published() == everything and start() == "1.10.0"
+    listed = re.findall(r'"(\S+)/"', " ".join(git("--git-dir", str(origin), "show", "gh-pages:versions.html")))
+    assert listed == ["1.10.0", "1.9.1", "1.9.0", "dev"]
+    assert git("--git-dir", str(origin), "rev-list", "--count", "gh-pages") == ["1"]
+    before = git("--git-dir", str(origin), "rev-parse", "gh-pages")
+    assert "VERSION has 1.0.0" in publish("v2.0.0", "1.0.0", ["index.html"])
+    assert "not from \"else\"" in publish("else", "1.0.0", ["index.html"])
+    assert "./sphd doc builds it" in publish("main", "1.0.0-dev")
+    assert git("--git-dir", str(origin), "rev-parse", "gh-pages") == before
+    assert git("status", "--porcelain") == ["??", ".ci/", "??", ".gitignore", "??", "VERSION"]
+    origin.rename(tmp_path / "elsewhere")
+    assert "origin cannot be read" in publish("main", "1.0.0-dev", ["index.html"])
