@@ -102,8 +102,8 @@ void Engine::setup(const Parameters &parameters)
 }
 
 /* ----------------------------------------------------------------------
-   Allocate a long array, on Linux in large pages: pairs access rows all over the arrays, and with fewer addresses to
-   translate a step takes 3 percent less time (64,000 particles).  Old contents are lost.
+   Allocate a long array, on Linux in large pages; old contents are lost.  Pairs access rows all over the arrays: with fewer
+   addresses to translate, a step takes 3 percent less time (64,000 particles).
 ------------------------------------------------------------------------- */
 
 template <class T> static void renew(Memory *memory, T *&array, bigint n, const char *name)
@@ -137,8 +137,8 @@ void Engine::grow_atoms()
 }
 
 /* ----------------------------------------------------------------------
-   Give each thread rows with about equally many entries of the neighbor list.  Allocate room for all pairs, each row filled
-   up to full blocks, and for each thread one more block and the indices that pass 2 reads ahead.
+   Give each thread rows with about equally many entries of the neighbor list.  Allocate room for all pairs, with rows filled
+   up to full blocks, and, for each thread, for one more block and for the indices that pass 2 reads ahead.
 ------------------------------------------------------------------------- */
 
 void Engine::grow_pairs(NeighList *list, bool leaves_slopes)
@@ -203,7 +203,7 @@ LoopData Engine::part(int thread) const
 }
 
 /* ----------------------------------------------------------------------
-   Set the rows of atoms between the passes; with temp energy, internal energies are a copy.
+   Set the rows of atoms between the passes; with temp energy, the rows have a copy of the internal energies.
 ------------------------------------------------------------------------- */
 
 void Engine::set_rows()
@@ -277,8 +277,8 @@ void Engine::follow_atoms() const
 }
 
 /* ----------------------------------------------------------------------
-   Set the reference volumes of owned and ghost atoms, and multiply the first term of each density, that of the particle
-   itself, by them.
+   Set the reference volumes of owned and ghost atoms, and multiply the term of the particle itself in each density by these
+   volumes.
 ------------------------------------------------------------------------- */
 
 void Engine::set_weights()
@@ -486,7 +486,7 @@ void Engine::run_noise(NoiseLoop loop, const NoiseData &noise)
 }
 
 /* ----------------------------------------------------------------------
-   Draw in whole blocks, each on one thread.
+   Draw random numbers in whole blocks, each block on one thread.
 ------------------------------------------------------------------------- */
 
 void Engine::draw_numbers(const NoiseData &noise, NoiseChannel channel, int n, int count,

@@ -51,9 +51,9 @@ namespace SPHDissipation {
 
     constexpr bool COMPUTES_SLOPES = LANES == 8;
 
-    // Pass 1: sum c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED; leave the pairs, with
-    // SLOPES F, and with SQUARES F (e.u)^2 (mg/fr2: F (r.u)^2).  q is at most 1, where W and F are zero, also for spare
-    // particles
+    // Pass 1: sum c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED.  Leave the pairs for pass
+    // 2; SLOPES: also F of each pair; SQUARES: also F (e.u)^2 (mg/fr2: F (r.u)^2).  q is at most 1, where W and F are zero,
+    // also for spare particles
 
     template <class K, bool WEIGHTED, bool SLOPES, bool SQUARES> void density_loop(LoopData &data)
     {
@@ -181,8 +181,8 @@ namespace SPHDissipation {
       }
     }
 
-    // Coefficients of all pairs of types, a Row of N numbers for each pair.  With at most as many types as lanes, one vector
-    // has a number of type i with all types.
+    // Coefficients of all pairs of types, a Row of N numbers for each pair.  If there are at most as many types as lanes,
+    // one vector has a number of type i with all types.
     template <class Row> struct CoeffTable {
       static constexpr int N = WIDTH<Row>;
       const Row *const row;
@@ -203,7 +203,7 @@ namespace SPHDissipation {
       }
     };
 
-    // Coefficients of a block of pairs, those that Used::uses(); before load() the coefficients of type 1
+    // Coefficients of a block of pairs that Used::uses(); before load(), those of type 1
     template <class Row, class Used> struct Coeffs {
       static constexpr int N = WIDTH<Row>;
       Vec a[N];
@@ -295,8 +295,8 @@ namespace SPHDissipation {
       return slope;
     }
 
-    // Give the fluid all heat of pairs with a boundary.  Not inline and with a copy of the pair: otherwise the loops would
-    // keep the pairs of all rows in memory
+    // Give the fluid all heat of pairs with a boundary.  The function is not inline and has a copy of the pair: otherwise
+    // the loops would keep the pairs of all rows in memory
 
     template <class Form>
     SPH_NOINLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i,
@@ -364,9 +364,9 @@ namespace SPHDissipation {
 
     // Pass 2: sum forces and torques of the pressure and of the channels, and their heat, half to each partner
     // Form: the terms of the pairs
-    // VOLUME: the bulk form P1 (64) with its own pair weights, and D_i = -sum_j V_j F r_ij.u_ij, for its heat; the form
-    // P1 (18) acts through g and heats by cdot
-    // Noise: random forces and torques of the pairs; Noise::ENERGY: the heat pays for their work on the motion
+    // VOLUME: the bulk form P1 (64) with separate pair weights, and D_i = -sum_j V_j F r_ij.u_ij for its heat; else the form
+    // P1 (18), whose force is in g and whose heat follows from cdot
+    // Noise: random forces and torques of the pairs; Noise::ENERGY: their work on the motion is taken from the heat
 
     template <class Form, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
     void force_loop(LoopData &data)
@@ -519,9 +519,9 @@ namespace SPHDissipation {
       }
     }
 
-    // Sum the heat that i gets from j by the work of both pressures, without random ones, and of the friction of the pair at
-    // the mean velocities of the kick, see NoiseStage::share_work(); PairNoise::given_by_torque() has the square of the
-    // torques of the pair
+    // Sum the heat that i gets from j, see NoiseStage::share_work(): by the work of both pressures (not of random pressures)
+    // and of the friction of the pair, at the mean velocities of the kick.  PairNoise::given_by_torque() has the square of
+    // the torques of the pair
 
     template <class Form> void work_loop(const LoopData &data, const NoiseData &noise)
     {
@@ -636,7 +636,7 @@ namespace SPHDissipation {
     }
 
     // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: return F over the mean impedance, without
-    // the factor of a_ij that all pairs share.  ALIKE: all particles have the same impedance, which is left out as well
+    // the common factor of all a_ij.  ALIKE: all particles have the same impedance; leave it out as well
 
     template <bool ALIKE>
     SPH_INLINE Vec diffusion_slope(const DiffusionData &data, double own, const Offset *j,
@@ -789,8 +789,8 @@ namespace SPHDissipation {
 #include "sph_dissipation_boundary_loops.h"
 #include "sph_dissipation_neighbor_loops.h"
 
-    // Forms whose loops always have weights, 1 with volume number.  So have the loops of the bulk form volume, of
-    // viscosities that are not constant, and of the noise
+    // True for forms whose loops always have weights (1 with volume number).  Loops of the bulk form volume, of viscosities
+    // that are not constant, and of the noise also have weights
 
     template <class F>
     constexpr bool IS_FULL =
@@ -820,8 +820,8 @@ namespace SPHDissipation {
       return bits;
     }
 
-    // Choose the loop with noise: forms that only act along e have no numbers across; bulk form volume has no noise; without
-    // friction only temp energy has one
+    // Choose the loop with noise.  Forms that only act along e have no numbers across e; the bulk form volume has no noise;
+    // without friction, only temp energy has noise
 
     template <class F, NoiseKind KIND> Loop choose_noise(int dim)
     {

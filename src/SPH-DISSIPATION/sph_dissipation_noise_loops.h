@@ -60,7 +60,7 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct Pa
   }
 };
 
-// Keys and part of the counter that are the same for all pairs
+// Keys of the generator, and the part of the counter that is the same for all pairs
 
 struct NoiseStep {
   PhiloxKeys pair;
@@ -145,7 +145,7 @@ template <bool BY_SQUARE> SPH_INLINE Vec central_of(const Vec *coeff, Vec rsq)
     return coeff[CENTRAL];
 }
 
-// Return root, with gamma_ij = root times reach of j over c of i; metric = r^2, or r for mg/fr
+// Return root; gamma_ij is root times reach of j, over c of i.  metric = r^2, or r for mg/fr
 
 template <bool BY_SQUARE>
 SPH_INLINE Vec root_of(const NoiseData &data, const Vec *coeff, Vec slope, Vec metric)
@@ -395,7 +395,7 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
   double *next_number, *next;    // kept by begin() for the pairs of i: random numbers, all else
   Vec mobility, pressure, spin_mobility;    // of j
 
-  // Draw and keep the random numbers of N blocks
+  // Draw the random numbers of N blocks, and keep them
 
   template <int N> SPH_INLINE void keep_numbers(const Offset *j)
   {

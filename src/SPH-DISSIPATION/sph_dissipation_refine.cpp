@@ -121,8 +121,8 @@ bool RefinePairs::fits(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether j is nearer to i than the other one.  At equal distances the IDs decide, for two images
-   of one particle, in a narrow box, the positions.
+   Return whether j is nearer to i than the other particle.  At equal distances the IDs decide; in a narrow box, positions
+   decide between two images of one particle.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::nearer(int i, int j, int other) const
@@ -411,7 +411,7 @@ void RefineEvent::set_lump(int i, const Lump &one)
 }
 
 /* ----------------------------------------------------------------------
-   Set the states of a particle that has split or merged, whose density changes with that.
+   Set the states of a particle that has split or merged, since its density has changed.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::set_states(int i, const Lump &one)
@@ -457,9 +457,8 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   Choose how particle i splits: into the parts of a cube, or, where neighbors are not arranged evenly
-   or the parts would be too small, into two along the axis on which the neighbors are farthest.  False
-   if a daughter would leave the box.
+   Choose how particle i splits: into the parts of a cube; or, if neighbors are not arranged evenly or the parts would be too
+   small, into two along the axis on which the neighbors are farthest.  Return false if a daughter would leave the box.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
@@ -494,7 +493,7 @@ bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
 }
 
 /* ----------------------------------------------------------------------
-   Drop the events of the highest IDs if there are more than the most.  Return how many take place.
+   Drop the events of the highest IDs if there are more events than most.  Return the number of events that take place.
 ------------------------------------------------------------------------- */
 
 bigint RefineEvent::postpone(bigint most)

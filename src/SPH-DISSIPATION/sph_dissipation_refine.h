@@ -52,8 +52,8 @@ namespace SPHDissipation {
     double
         postponed;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
 
-    // The particle in the sums of its neighbors: a pair that merges is a point in its center of mass; the lower ID has the
-    // mass, the other particle none
+    // The particle in the sums of its neighbors.  A pair that merges is a point in its center of mass: the particle with the
+    // lower ID has all mass, the other one has none
 
     double mass, center[3], u[3];    // center: from the particle
 
@@ -73,8 +73,8 @@ namespace SPHDissipation {
     RefineItem &operator[](int i) { return items[i]; }
     const RefineItem &operator[](int i) const { return items[i]; }
 
-    // Send so many numbers of the items, from member first on, to the ghosts; 0: all that follow.  Ghosts keep their own
-    // positions, those of periodic images.
+    // Send so many numbers of the items, from member first on, to the ghosts; 0: all following numbers.  Ghosts keep the
+    // positions of their periodic images.
 
     static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
     void forward(double RefineItem::*first, int number = 1);
@@ -94,8 +94,8 @@ namespace SPHDissipation {
   // chosen each other are settled, the others choose again.  IDs decide between distances that are equal up to round-off, so
   // that the pairs do not depend on the number of processors.
   //
-  // A family, all daughters of one split, merges first and as a whole.  It serves spinning particles in
-  // three dimensions: pairs, one after the other, do not restore the moment of inertia of the parent.
+  // A family, all daughters of one split, merges first and as a whole, for spinning particles in three dimensions: pairs,
+  // one after the other, would not restore the moment of inertia of the parent.
 
   class RefinePairs : protected Pointers {
    public:
