@@ -100,9 +100,9 @@ FLOWS = {
         "before": ladder(*by("n", 24, 32, 48, 64), support=4, keywords="shift 1.0"), "now": ladder(*by("n", 24, 32, 48, 64), shear="mg/fr2", support=3, keywords="shift auto"),
         "lammps": ladder(*by("n", 48, 96)), "rheo": ladder(*by("n", 32, 48, 64))}),
     "cavity, Re = 100": (EXAMPLES / "cavity" / "in.cavity", {"Re": 100, "c0": 10, "pb": 0, "end": 16, "mean": 4}, 0.01, cavity, {
-        "before": ladder(*by("N", 30, 40, 50, 70), support=4), "now": ladder(*by("N", 30, 40, 50, 70), shear="mg/fr2", support=3, shift="auto")}),
+        "before": ladder(*by("N", 20, 24, 32, 40, 50), support=4), "now": ladder(*by("N", 20, 24, 32, 40, 50), shear="mg/fr2", support=3, shift="auto")}),
     "cylinder, Re = 20": (EXAMPLES / "cylinder" / "in.cylinder", {"Re": 20, "end": 24, "mean": 8}, 0.03, drag, {
-        "before": ladder(*by("n", 8, 10, 12), support=4), "now": ladder(*by("n", 8, 10, 12), shear="mg/fr2", support=3, shift="auto")}),
+        "before": ladder(*by("n", 4, 6, 8, 10), support=4), "now": ladder(*by("n", 4, 6, 8, 10), shear="mg/fr2", support=3, shift="auto")}),
     "sound": (OWN, {"flow": "sound"}, 0.01, decay, {
         "before": ladder(*by("n", 12, 16, 24, 32, 48), support=4), "now": ladder(*by("n", 12, 16, 24, 32, 48), kernel="wendland/c6", support=6),
         "lammps": ladder(*by("n", 24, 48)), "rheo": ladder(*by("n", 24, 48))}),
