@@ -81,7 +81,7 @@ def keywords(*needs):
     """of pair_coeff with one of these requirements (enum Requirement)"""
     found = []
     for file in SOURCES:
-        for name, words in re.findall(r'\{"(\w+)", \w+, \w+, ([A-Z_ |]+)(?:, true)?\}', file.read_text()):
+        for name, words in re.findall(r'\{"(\w+)",\s+"[^"]*",\s+\w+,\s+\w+,\s+([A-Z_ |]+)(?:, true)?\}', file.read_text()):
             if set(words.split(" | ")) & set(needs):
                 found.append(f"*{name}*")
     assert found
