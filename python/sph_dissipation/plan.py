@@ -8,12 +8,14 @@
     ./sphd plan --fluid water --column 0.6 --tank 3.22                   # a column of water that falls into a tank: a dam break
     ./sphd plan --rho 1 --mu 0.1 --channel 1 --velocity 1 --yield 0.2    # a channel between two walls, here of a fluid with a yield stress
     ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
+    ./sphd plan --rho 1 --mu 0.07 --kappa 0.2 --colloid 2 --temperature 0.001   # a sphere in a fluid with thermal noise
 
 With --fluid, a name of potentials/gases.sph or fluids.sph in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]] (percent, K, Pa), all
 numbers are in SI units; else in the units of --units. The input is a periodic box, filled with a stream; the flow is to be put in its place. With
 --wavelength, --frequency, or --c real it is filled with a standing wave of sound, as long as the box. What the choices are made by
 is in the manual, "Choosing numbers". With --column the input is a tank with a free surface, see "Free surfaces" there, with --channel
-a flow between two walls. Inputs of sound, columns, and channels print what is measured beside theory.
+a flow between two walls, with --colloid a sphere that thermal noise moves. All of these inputs, but that of a flow, print what is
+measured beside theory.
 """
 import argparse
 import cmath
@@ -127,14 +129,15 @@ class Plan:
         args = self.args
         self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
-        self.name = "sound" if self.wave else "column" if args.column else "channel" if self.walls else "flow"    # of the files
+        self.name = "sound" if self.wave else "column" if args.column else "channel" if self.walls else "colloid" if args.colloid else "flow"    # of the files
         # mg/fr2 and wendland/c2 are right at three spacings in a flow whose particles are shifted.  A free surface and noise need mg, which
         # dissipates there with any kappa.  c6 smooths a wave less; under the pressure pb, a lattice of it is stable, with 6 spacings for ten periods
         flows = not (self.wave or args.column or args.temperature is not None)
         args.shear = args.shear or ("mg/fr2" if flows else "mg")
         args.kernel = args.kernel or ("wendland/c6" if self.wave else "quintic" if self.walls else "wendland/c2")
         three = flows and (args.shear, args.kernel) == ("mg/fr2", "quintic" if self.walls else "wendland/c2")
-        args.support = args.support or (6.0 if self.wave else 3.0 if three else 4.0)
+        args.support = args.support or (6.0 if self.wave else 3.0 if three or args.colloid else 4.0)
+        args.particles = args.particles or (12 if args.colloid else 50)
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -655,6 +658,100 @@ thermo_style    custom step time v_mean v_theory v_stress v_balance cpuremain
         return figure
 
 
+class Colloid(Plan):
+    """A sphere in a fluid with thermal noise, in a periodic box."""
+
+    SPACINGS = 2.0    # in the radius
+
+    def set_length(self):
+        args = self.args
+        self.dx = args.colloid / self.SPACINGS
+        args.length, self.frequency = args.particles * self.dx, 0.0
+        self.energy = BOLTZMANN[self.units] * args.temperature
+        args.velocity = math.sqrt(self.energy / (self.real.rho * self.dx**3))    # thermal, of a particle
+
+    def set_particles(self):
+        args = self.args
+        self.rc = args.support * self.dx
+        if args.particles < 2 * args.support:
+            raise SystemExit(f"plan: a box of {args.particles} spacings is less than two support radii, {2 * args.support:g}, wide; take more --particles")
+        self.lattice = f"sc {1 / self.dx**3 if self.units == 'lj' else self.dx:.8g}"
+        self.number = args.particles**3
+        middle = (args.particles / 2,) * 3    # of the box, where a particle is none: they are at half spacings
+        self.inside = sum(math.dist((i + 0.5, j + 0.5, k + 0.5), middle) < self.SPACINGS for i, j, k in itertools.product(range(args.particles), repeat=3))
+        self.spread = args.length**2 * self.rho / (4 * math.pi**2 * self.mu)    # time in which momentum spreads through the box
+        args.time = args.time or 25 * self.spread
+
+    def set_time_step(self):
+        super().set_time_step()
+        self.dt = float(f"{min(self.dt, 0.046 / self.rate):.3g}")    # next to a body the rate is twice as large
+
+    def flow_notes(self):
+        radius, mass = self.args.colloid, self.inside * self.rho * self.dx**3
+        nu, friction = self.mu / self.rho, 6 * math.pi * radius
+        diffusion = self.energy / (friction * self.mu)
+        time, wanted = radius**2 / diffusion, math.sqrt(100 * self.energy * self.rho / friction)
+        thermal = math.sqrt(self.energy / mass)
+        return [f"colloid             radius {radius:g}, {self.inside} particles, in a box {self.args.length:.4g} wide",
+                f"Mach number         {self.thermal_mach():.2g} of the particles, sqrt(kT/m)/c0, {thermal / self.c0:.2g} of the colloid",
+                f"Reynolds number     {thermal * radius / nu:.2g} of the colloid, at its thermal velocity {thermal:.3g}",
+                f"Schmidt number      {nu / diffusion:.3g}, viscosity over diffusion; 100 with mu = {wanted:.3g}",
+                f"diffusion           {diffusion:.4g} by Stokes and Einstein; over its radius in {time:.3g}, {time / self.dt:.2g} steps",
+                f"times               momentum spreads through the box in {self.spread:.4g}"]
+
+    def scaled(self, factor):
+        return self    # the box stays small
+
+    def input(self, time=""):
+        args = self.args
+        kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
+        every = max(self.steps // 20, 10) // 10 * 10
+        middle = " ".join([f"{args.particles / 2:g}"] * 3)
+        return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
+units           {self.units}
+atom_style      sph/bulk
+
+lattice         {self.lattice} origin 0.5 0.5 0.5
+region          box block 0 {args.particles} 0 {args.particles} 0 {args.particles}
+create_box      2 box
+create_atoms    1 box
+region          ball sphere {middle} {self.SPACINGS:g}
+set             region ball type 2
+set             group all mass {self.rho * self.dx**3:.8g}
+group           fluid type 1
+group           ball type 2
+
+neighbor        {self.skin():.4g} bin
+pair_style      sph/bulk kernel {args.kernel} shear {args.shear}{' limit yes' if self.zeta < 0.0 else ''} temp {args.temperature:g} 4711
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}    # rho0 c0 mu kappa rc
+fix             1 fluid sph/bulk density rho0
+fix             2 ball rigid single
+fix             3 ball sph/wall move rigid
+
+timestep        {self.dt:.3g}
+variable        K equal mass(ball)*(vcm(ball,x)^2+vcm(ball,y)^2+vcm(ball,z)^2)/{3 * self.energy:.6g}    # over that of theory without a box
+fix             K all ave/time 10 {every // 10} {every} v_K ave running
+variable        theory equal 1.0-mass(ball)/mass(all)    # since the total momentum is zero
+variable        t equal time
+variable        x equal xcm(ball,x)                      # path, not wrapped into the box
+variable        y equal xcm(ball,y)
+variable        z equal xcm(ball,z)
+fix             path all ave/time 10 1 10 v_t v_x v_y v_z file colloid.path
+thermo_style    custom step time f_K v_theory cpuremain
+thermo          {every}
+dump            1 all custom {every} {self.name}.dump id type x y z vx vy vz
+run             {self.steps}
+"""
+
+    def figure(self, plt, thermo):
+        figure, axes = plt.subplots()
+        axes.plot(thermo["Time"][1:], thermo["f_K"][1:], "o-", label="mean since the start")
+        axes.plot(thermo["Time"][1:], thermo["v_theory"][1:], "k--", label="theory")
+        axes.set(xlabel=self.label("time", "s"), ylabel="kinetic energy of the colloid over 3 kT/2", ylim=(0, None))
+        axes.legend()
+        return figure
+
+
 def measured_time(plan, lmp):
     """seconds of one core per particle and step; of a box that is smaller, if it is large; None: takes too long"""
     most = 30000
@@ -716,20 +813,21 @@ def arguments(argv):
     parser.add_argument("--column", type=positive, metavar="H", help="a column of this height at one end of a tank, with a free surface: a dam break")
     parser.add_argument("--width", type=positive, help="of the column (default: twice the height)")
     parser.add_argument("--tank", type=positive, help=f"length of the tank (default: {TANK} of the height); as long as the column: a tank at rest")
+    parser.add_argument("--colloid", type=positive, metavar="R", help="a sphere of this radius in a fluid with noise of --temperature, in three dimensions")
     parser.add_argument("--gravity", type=positive, help="(default: 9.81, or 1 with units lj)")
     parser.add_argument("--channel", type=positive, metavar="H", help="a channel of this height between two walls, with the largest velocity --velocity")
     parser.add_argument("--yield", type=positive, metavar="TAU", dest="yield_stress", help="yield stress of the fluid in a channel, a Bingham fluid")
     parser.add_argument("--relax", action="store_true", help="bulk viscosity that relaxes (default: for sound above the frequency up to which a constant holds)")
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
-    parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
+    parser.add_argument("--particles", type=int, metavar="N", help="across the length (default: 50, with --colloid 12)")
     parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 3 with mg/fr2 and wendland/c2, else 4, for sound 6)")
     parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
     parser.add_argument("--shear", choices=SHEAR, metavar="FORM", help="form of the shear term (default: mg/fr2; mg with noise, a free surface, or sound)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
-    parser.add_argument("--run", action="store_true", help="write the input in.NAME, run it, and keep log.NAME; NAME: sound, column, channel, or flow")
+    parser.add_argument("--run", action="store_true", help="write the input in.NAME, run it, and keep log.NAME; NAME: sound, column, channel, colloid, or flow")
     parser.add_argument("--plot", action="store_true", help="... and draw what is measured beside theory: NAME.png")
     parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp", help="LAMMPS that is timed (default: build/lmp)")
     args = parser.parse_args(argv)
@@ -739,12 +837,15 @@ def arguments(argv):
         parser.error("--fluid is in SI units: leave --units out")
     if not args.fluid and args.mu is None:
         parser.error("--mu is missing")
-    if args.column or args.channel:
-        others = {"--length": args.length, "--wavelength": args.wavelength, "--frequency": args.frequency, "--temperature": args.temperature, "--relax": args.relax}
-        others |= {"--velocity": args.velocity, "--channel": args.channel} if args.column else {"--dim 3": args.dim == 3}
+    kind = "--column" if args.column else "--channel" if args.channel else "--colloid" if args.colloid else ""
+    if kind:
+        others = {"--length": args.length, "--wavelength": args.wavelength, "--frequency": args.frequency, "--relax": args.relax}
+        others |= {"--velocity": args.velocity if kind != "--channel" else None, "--channel": args.channel if kind != "--channel" else None,
+                   "--colloid": args.colloid if kind != "--colloid" else None, "--temperature": args.temperature if kind != "--colloid" else None,
+                   "--dim 3": kind == "--channel" and args.dim == 3}
         for word, value in others.items():
             if value:
-                parser.error(f"{word} is not for {'--column' if args.column else '--channel'}")
+                parser.error(f"{word} is not for {kind}")
     if args.column:
         if args.shear in ("morris", "espanol"):
             parser.error(f"--shear {args.shear} is not for --column: it exerts a torque at a free surface")
@@ -765,14 +866,20 @@ def arguments(argv):
             parser.error("--c real is not for --channel, whose flow is nearly incompressible")
         if args.yield_stress and args.shear not in (None, "mg", "mg/fr2"):
             parser.error(f"--yield is for --shear mg and mg/fr2, not {args.shear}")
+    elif args.colloid:
+        args.dim = 3
+        if not args.temperature or args.mu == 0.0:
+            parser.error("--colloid needs --temperature above 0, and a fluid with a shear viscosity")
+        if args.c == "real":
+            parser.error("--c real is not for --colloid, whose fluid is nearly incompressible")
     elif bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:
-        parser.error("give --length and --velocity, or --wavelength, or --frequency, or --column, or --channel")
+        parser.error("give --length and --velocity, or --wavelength, or --frequency, or --column, or --channel, or --colloid")
     if args.yield_stress and not args.channel:
         parser.error("--yield is for --channel")
-    if args.plot and not (args.column or args.channel or args.wavelength or args.frequency or args.c == "real"):
-        parser.error("--plot draws what a theory tells: it is for sound, --column, and --channel")
+    if args.plot and not (kind or args.wavelength or args.frequency or args.c == "real"):
+        parser.error("--plot draws what a theory tells: it is for sound, --column, --channel, and --colloid")
     args.fraction = args.fraction or (0.95 if args.column else 0.5)
-    if args.particles < 1:
+    if args.particles is not None and args.particles < 1:
         parser.error("--particles must be > 0")
     if args.fraction > 1.0:
         parser.error("--fraction must not be above 1")
@@ -780,7 +887,7 @@ def arguments(argv):
 
 
 def plan_of(args):
-    return (Column if args.column else Channel if args.channel else Plan)(args)
+    return (Column if args.column else Channel if args.channel else Colloid if args.colloid else Plan)(args)
 
 
 def printed(args):

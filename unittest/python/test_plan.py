@@ -125,7 +125,28 @@ def test_channel(lammps, case, error):
     assert np.abs(last["vx"][inside] - exact).max() < 2.5 * error * plan.args.velocity
 
 
-FIRST = {"sound": "--fluid CO2 --frequency 30e3", "column": "--fluid water --column 0.6 --tank 3.22", "channel": "--rho 1 --mu 0.1 --channel 1 --velocity 1 --yield 0.2",
+COLLOID = "--rho 1 --mu 0.07 --kappa 0.2 --colloid 2 --temperature 0.001"
+
+
+@pytest.mark.parametrize("case, steps", [(COLLOID, 20), ("--fluid water --colloid 1e-6 --temperature 298", 20), ("--rho 2 --mu 1 --colloid 3 --temperature 0.1 --c 2", 20),
+                                         pytest.param(COLLOID, None, marks=pytest.mark.long)])
+def test_colloid(lammps, case, steps):
+    """A sphere of particles without a warning; in a long run it has the kinetic energy of equipartition."""
+    plan = planner.plan_of(planner.arguments(case.split()))
+    text = re.sub(r"(?m)^run .*", f"run {steps}", plan.input()) if steps else plan.input()
+    result = lammps(text, timeout=300)
+    assert not result.warnings, result.warnings
+    assert f"{plan.inside} settings made for type" in result.output and f"Created {plan.number} atoms" in result.log
+    assert 0.08 < float(re.search(r"largest viscous rate times time step (\S+)", result.log)[1]) < 0.1    # also next to the body
+    schmidt, diffusion = (float(re.search(rf"^# {name} +(\S+?)[ ,]", text, re.MULTILINE)[1]) for name in ("Schmidt number", "diffusion"))
+    energy = (1.380649e-23 if plan.units == "si" else 1.0) * plan.args.temperature
+    assert diffusion == pytest.approx(energy / (6 * np.pi * plan.mu * plan.args.colloid), rel=1e-3) and schmidt == pytest.approx(plan.mu / plan.rho / diffusion, rel=5e-3)
+    if not steps:
+        (columns,) = result.thermo()
+        assert columns["f_K"][-1] == pytest.approx(columns["v_theory"][-1], rel=0.1)
+
+
+FIRST = {"colloid": COLLOID, "sound": "--fluid CO2 --frequency 30e3", "column": "--fluid water --column 0.6 --tank 3.22", "channel": "--rho 1 --mu 0.1 --channel 1 --velocity 1 --yield 0.2",
          "flow": BOX.replace("0.7", "0.7 --rho 1 --mu 1")}
 
 
@@ -291,6 +312,9 @@ def test_proposal():
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
     ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --wavelength 1 --c 5", "give --kappa"), ("--rho 1 --mu 1 --frequency 1 --c 5", "give --kappa"),
     ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"), ("--rho 1 --mu 1 --column 1 --velocity 1", "--velocity is not for --column"),
+    ("--rho 1 --mu 1 --colloid 1", "--colloid needs --temperature"), ("--rho 1 --mu 0 --colloid 1 --temperature 1", "a shear viscosity"),
+    ("--rho 1 --mu 1 --colloid 1 --temperature 1 --length 1", "--length is not for --colloid"),
+    ("--rho 1 --mu 1 --colloid 1 --temperature 1 --particles 5", "less than two support radii"), ("--rho 1 --mu 1 --colloid 1 --channel 1 --velocity 1", "--colloid is not for --channel"),
     ("--rho 1 --mu 1 --channel 1", "--channel needs --velocity"), ("--rho 1 --mu 0 --channel 1 --velocity 1", "with a shear viscosity"),
     ("--rho 1 --mu 1 --channel 1 --velocity 1 --dim 3", "--dim 3 is not for --channel"), ("--rho 1 --mu 1 --channel 1 --velocity 1 --temperature 1", "--temperature is not for --channel"),
     ("--rho 1 --mu 1 --channel 1 --velocity 1 --yield 1 --shear morris", "--yield is for --shear mg and mg/fr2, not morris"),
