@@ -19,6 +19,7 @@ measured beside theory.
 """
 import argparse
 import cmath
+import difflib
 import itertools
 import math
 import os
@@ -183,7 +184,9 @@ class Plan:
             try:
                 self.real = fluids.find(args.fluid)
             except KeyError as known:
-                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {known.args[0]}; for another one give "
+                names = known.args[0].split()
+                names.sort(key=lambda name: -difflib.SequenceMatcher(None, args.fluid.lower(), name.lower()).ratio())
+                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {' '.join(names)}; for another one give "
                                  "--rho, --mu, --kappa, and --units si") from None
             except ValueError as error:
                 raise SystemExit(f"plan: no fluid {args.fluid}: {error}") from None
@@ -780,15 +783,22 @@ def duration(seconds):
     return f"{seconds:.2g} seconds"
 
 
+def number_of(text):
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number without a unit, such as 40e3, not {text}") from None
+
+
 def positive(text):
-    number = float(text)
+    number = number_of(text)
     if not (0.0 < number < math.inf):
         raise argparse.ArgumentTypeError(f"must be > 0, not {text}")
     return number
 
 
 def not_negative(text):
-    number = float(text)
+    number = number_of(text)
     if not (0.0 <= number < math.inf):
         raise argparse.ArgumentTypeError(f"must be >= 0, not {text}")
     return number
