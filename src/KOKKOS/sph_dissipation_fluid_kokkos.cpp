@@ -33,6 +33,9 @@
 #include "sph_dissipation_threads.h"
 
 #include <algorithm>
+#include <cstring>
+#include <map>
+#include <string>
 #include <utility>
 
 using namespace LAMMPS_NS;
@@ -466,12 +469,42 @@ void FluidKokkos<DeviceType>::sum_pairs(const char *name, const More &...more)
 }
 
 /* ----------------------------------------------------------------------
+   Replace the functions of the stages by those of the device.  On the device, "pairs" adds the forces and the repulsion.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
+{
+  typedef FluidKokkos<DeviceType> Own;
+  const std::map<std::string, void (Own::*)(StepData &)> own = {
+      {"densities", &Own::sum_density},
+      {"wall volumes", &Own::set_reference_volume},
+      {"bound", &Own::sum_bound},
+      {"pressures", &Own::set_pressure},
+      {"walls", &Own::set_boundary},
+      {"pairs", &Own::sum_forces},
+      {"flows", &Own::sum_flows},
+      {"diffusion", &Own::evaluate_diffusion},
+      {"diffusion heat", &Own::add_diffusion_heat}};
+  Fluid::list_stages();
+  if (!on_device) return;
+  stages.erase(std::remove_if(stages.begin(), stages.end(),
+                              [](const ListedStage &one) {
+                                return !strcmp(one.name, "forces") ||
+                                    !strcmp(one.name, "repulsion");
+                              }),
+               stages.end());
+  for (ListedStage &one : stages)
+    one.run = [this, run = own.at(one.name)](StepData &step) {
+      (this->*run)(step);
+    };
+}
+
+/* ----------------------------------------------------------------------
    Run pass 1.  Thermal pressure needs the energy of ghost atoms.
 ------------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_density(StepData &)
 {
-  if (!on_device) return Fluid::sum_density();
   copy_coeffs();
   grow();
   // also sync modified fields: LAMMPS communicates on the host if MPI cannot use the memory of the GPU
@@ -508,18 +541,16 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_density()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::sum_bound()
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_bound(StepData &)
 {
-  if (!on_device) return Fluid::sum_bound();
   sum_pairs<BoundLoopKokkos>("sph:bound", bound_of.data());
   send_to_ghosts({{bound_of.data(), 1, 1}});
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::set_reference_volume()
+template <class DeviceType> void FluidKokkos<DeviceType>::set_reference_volume(StepData &)
 {
-  if (!on_device) return Fluid::set_reference_volume();
   const ParticleRows rows = *data;
   const int bits = boundary->bits();
   for_each<DeviceType>(
@@ -529,9 +560,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_reference_volume()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> bigint FluidKokkos<DeviceType>::set_pressure()
+template <class DeviceType> void FluidKokkos<DeviceType>::set_pressure(StepData &step)
 {
-  if (!on_device) return Fluid::set_pressure();
   const ParticleRows rows = *data;
   const int bits = boundary->bits();
   const double *const bounds = (model->choice.limit != Limit::NO) ? bound_of.data() : nullptr;
@@ -547,16 +577,15 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::set_pressure()
           if (rows.is_fluid(i, bits) && rows.is_beyond(i, bounds)) sum++;
         },
         count);
-  return count;
+  step.nbeyond = count;
 }
 
 /* ----------------------------------------------------------------------
    Set the values of boundary particles, and send them to ghosts.  The message is redundant for ghosts of the fluid.
 ------------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary()
+template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary(StepData &)
 {
-  if (!on_device) return Fluid::set_boundary();
   boundary_device->run(*data, pair->list->inum);
   std::vector<Field> fields = {field(data->particle, data->particle->u, 5),    // u, vol and g
                                {data->zeta_term, 1, 1}};
@@ -651,10 +680,8 @@ void FluidKokkos<DeviceType>::run_shift(const ShiftDataKokkos<DeviceType> &shift
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType>
-void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &step)
 {
-  if (!on_device) return Fluid::sum_forces(tally, plan);
   data->vatom = {};
   if (pair->vflag_atom) data->vatom = decltype(data->vatom)("sph:vatom", atom->nlocal);
   const int n = pair->list->inum;
@@ -664,14 +691,14 @@ void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
       typedef decltype(kernel) K;
       typedef decltype(form) Form;
       if (data->par.bulk == Bulk::VOLUME)
-        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, true>{*data}, tally);
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, true>{*data}, step.tally);
       else
-        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*data}, tally);
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*data}, step.tally);
     });
   });
   if (!boundary->empty() && data->par.continuity) {
     const auto &walls = boundary_device->particles();
-    run_loop("sph:repulsion", walls.size(), RepulsionKokkos<DeviceType>{*data, walls}, tally);
+    run_loop("sph:repulsion", walls.size(), RepulsionKokkos<DeviceType>{*data, walls}, step.tally);
   }
 
   if (!pair->vflag_atom) return;
@@ -682,9 +709,8 @@ void FluidKokkos<DeviceType>::sum_forces(PairTally *tally, const StepPlan &plan)
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows()
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows(StepData &)
 {
-  if (!on_device) return Fluid::sum_flows();
   rates_known = true;
   for (int k = 0; k < Flows::NUMBER; k++) {
     if (!(engine->parameters().loops_of_flows >> k & 1)) continue;
@@ -696,11 +722,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_flows()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::evaluate_diffusion()
+template <class DeviceType> void FluidKokkos<DeviceType>::evaluate_diffusion(StepData &step)
 {
-  if (!on_device) return Fluid::evaluate_diffusion();
+  if (!diffusion_is_due()) return;
   const ParticleRows rows = *data;
-  const int bits = not_fluid(), some = integrated;
+  const int bits = step.not_fluid, some = integrated;
   auto row = diffusion_row;
   auto impedances = impedance;
   for_each<DeviceType>(
@@ -740,14 +766,13 @@ void FluidKokkos<DeviceType>::run_diffusion()
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void FluidKokkos<DeviceType>::add_diffusion_heat()
+template <class DeviceType> void FluidKokkos<DeviceType>::add_diffusion_heat(StepData &step)
 {
-  if (!on_device) return Fluid::add_diffusion_heat();
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   auto rate = avec.k_vol_rate.template view<DeviceType>();
   auto heat = avec.k_vol_heat.template view<DeviceType>();
   const ParticleRows rows = *data;
-  const int bits = not_fluid(), some = integrated;
+  const int bits = step.not_fluid, some = integrated;
   for_each<DeviceType>(
       "sph:diffusion_heat", atom->nlocal, KOKKOS_LAMBDA(int i) {
         if (!rows.diffuses(i, bits, some)) rate(i) = heat(i) = 0.0;

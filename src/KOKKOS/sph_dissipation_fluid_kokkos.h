@@ -67,21 +67,26 @@ namespace SPHDissipation {
     double received_heat(int groupbit) const override;
     double memory_usage() const override;
 
-    // Parts of compute(), on the device if it was chosen; public, because CUDA requires this of functions with lambdas
+    // Stages on the device; public, because CUDA requires this of functions with lambdas
 
-    void sum_density() override;
+    void sum_density(StepData &);
+    void sum_bound(StepData &);
+    void set_reference_volume(StepData &);
+    void set_pressure(StepData &);
+    void set_boundary(StepData &);
+    void sum_forces(StepData &);
+    void sum_flows(StepData &);
+    void evaluate_diffusion(StepData &);
+    void add_diffusion_heat(StepData &);
+
+    // On the device if it was chosen
+
+    void list_stages() override;
     void begin_run(double dt, bool continues, const Changes &) override;
     void advance_states() override;
-    void sum_bound() override;
-    void set_reference_volume() override;
-    bigint set_pressure() override;
-    void set_boundary() override;
     void shift_particles(double keep) override;
     template <class K> void run_shift(const ShiftDataKokkos<DeviceType> &);
-    void sum_forces(PairTally *, const StepPlan &) override;
-    void sum_flows() override;
-    void evaluate_diffusion() override;
-    void add_diffusion_heat() override;
+    void fence() const override { Kokkos::fence(); }
     void set_particles();
 
    private:

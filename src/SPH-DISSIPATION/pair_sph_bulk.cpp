@@ -173,6 +173,11 @@ void PairSPHBulk::compute(int eflag, int vflag)
   if (vflag_fdotr) virial_fdotr_compute();
 }
 
+void PairSPHBulk::finish()
+{
+  fluid->finish();
+}
+
 /* ---------------------------------------------------------------------- */
 
 void PairSPHBulk::allocate()

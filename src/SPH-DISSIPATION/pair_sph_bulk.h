@@ -44,6 +44,7 @@ class PairSPHBulk : public Pair {
   ~PairSPHBulk() override;
 
   void compute(int, int) override;
+  void finish() override;
   void settings(int, char **) override;
   void coeff(int, char **) override;
   void init_style() override;

@@ -512,10 +512,9 @@ double *Engine::room_for_numbers(int thread, const LoopData &rows)
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::accumulate_forces(NeighList *list, PairTally *tally, const StepPlan &plan)
+void Engine::accumulate_forces(NeighList *list, const StepData &step)
 {
-  data.tally = tally;
-  run_forces(list, plan, false);
+  run_forces(list, step, false);
   nlocal_forces = atom->nlocal;
   nghost_forces = atom->nghost;
 }
@@ -524,15 +523,14 @@ void Engine::accumulate_forces(NeighList *list, PairTally *tally, const StepPlan
 
 void Engine::accumulate_friction(NeighList *list, int not_fluid)
 {
-  data.tally = nullptr;
   run_forces(list, {not_fluid}, true);
 }
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
+void Engine::run_forces(NeighList *list, const StepData &step, bool linear)
 {
-  const StepNoise &noise = plan.noise;
+  const StepNoise &noise = step.noise;
   const bool by_volume = (par->bulk == Bulk::VOLUME), noisy = noise.pairs.data;
   const Loop loop = noisy ? loops->noisy_forces(noise.pairs.form) : force_loop;
   const int nall = atom->nlocal + atom->nghost;
@@ -541,6 +539,7 @@ void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
   data.viscosity = viscosity.data();
   data.excess = (linear || excess.empty()) ? nullptr : excess.data();
   data.random = nullptr;
+  data.tally = step.tally;
   data.noise = noise.pairs.data;
   force_sums.begin(*threads);
   scalar_sums.begin(*threads);
@@ -569,7 +568,7 @@ void Engine::run_forces(NeighList *list, const StepPlan &plan, bool linear)
   if (!par->drag) return;
   for_each(atom->nlocal, [&](int i) {
     double heat[NCHANNEL] = {};
-    add_drag(i, plan.not_fluid, linear, force[i].f, heat);
+    add_drag(i, step.not_fluid, linear, force[i].f, heat);
     if (noise.drag)
       for (int d = 0; d < 3; d++) force[i].f[d] += noise.drag[3 * i + d];
   });

@@ -237,10 +237,12 @@ namespace SPHDissipation {
     std::vector<double> slope;
   };
 
-  // Input of pass 2 in one step, besides the parameters
-  struct StepPlan {
-    int not_fluid = 0;    // bits of groups whose particles have no drag: walls and open zones
-    StepNoise noise = {};
+  // Values that stages of one step leave for later stages, besides the arrays of the engine
+  struct StepData {
+    int not_fluid = 0;       // bits of groups whose particles have no drag: walls and open zones
+    StepNoise noise = {};    // in pass 2
+    PairTally *tally = nullptr;    // of each pair in pass 2
+    bigint nbeyond = 0;            // owned particles beyond the bound of the limit
   };
 
   // Pair engine of the particle fluid styles: pass 1, a loop over the neighbor list, sums number density and its rate; pass
@@ -275,7 +277,7 @@ namespace SPHDissipation {
 
     // Pass 2: sum force[] and side, from particle[] with vol and g set by the caller on owned and ghost atoms; add the drag
     // of single particles
-    void accumulate_forces(NeighList *, PairTally *, const StepPlan &);
+    void accumulate_forces(NeighList *, const StepData &);
 
     // Add the sums for the noise, before pass 2, or the heat that partners share, after pass 2, to noise.total of owned and
     // ghost atoms, with room for the spare ones
@@ -426,7 +428,7 @@ namespace SPHDissipation {
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
     void run_noise(NoiseLoop, const NoiseData &);
-    void run_forces(NeighList *, const StepPlan &, bool linear);
+    void run_forces(NeighList *, const StepData &, bool linear);
   };
 
 }    // namespace SPHDissipation

@@ -43,6 +43,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <vector>
 
@@ -56,6 +57,12 @@ static constexpr double ACCURATE_NOISE = 0.1;
 // Largest sqrt(kT/m)/c0 without a warning: the relative standard deviation of the density in the volume of a particle.
 
 static constexpr double FAST_NOISE = 0.5;
+
+// Data that stages leave for later ones, see list_stages() and the design page
+
+static constexpr int NOTHING = 0, RANDOM = 1, MOTION = 2, VOLUMES = 4, SLOPES = 8,
+                     WALL_VOLUMES = 16, BOUNDS = 32, VISCOSITIES = 64, PRESSURES = 128, WALLS = 256,
+                     SUMS = 512, FORCES = 1024, TEMPERATURES = 2048;
 
 /* ---------------------------------------------------------------------- */
 
@@ -95,7 +102,6 @@ void Fluid::settings(int narg, char **arg)
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                style, model->simd);
   announced = set_up = false;
-  touched = true;
 }
 
 /* ----------------------------------------------------------------------
@@ -107,7 +113,6 @@ void Fluid::coeff(int narg, char **arg)
   model->adopt();    // keep the coefficients that other commands have set
   model->coeff(narg, arg, pair->setflag);
   announced = set_up = false;
-  touched = true;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -245,10 +250,8 @@ void Fluid::check_all_interact()
 void Fluid::derive_coeffs()
 {
   stale = false;
-  if (model->adopt()) {
-    announced = false;
-    touched = true;
-  }
+  if (model->adopt()) announced = false;
+  stages.clear();
   viscous->forget_rates();
   temperature->forget_rates();
   model->derive(dim, support);
@@ -272,87 +275,205 @@ void Fluid::adopt()
 
 bigint Fluid::compute(PairTally *tally)
 {
+  begin_forces();
+  StepData step;
+  step.not_fluid = not_fluid();
+  const bool timed = timer->has_full() && !update->setupflag;
+  if (timed && times.size() != stages.size()) times.assign(stages.size(), {});
+  for (std::size_t k = 0; k < stages.size(); k++) {
+    const double begin = timed ? platform::walltime() : 0.0;
+    step.tally = stages[k].trial ? nullptr : tally;
+    stages[k].run(step);
+    if (!timed) continue;
+    fence();
+    times[k].name = stages[k].name;
+    times[k].seconds += platform::walltime() - begin;
+    times[k].calls++;
+  }
+  changed = false;
+  if (update->setupflag) stages.clear();    // later forces have others
+  return step.nbeyond;
+}
+
+/* ----------------------------------------------------------------------
+   Check the particles of a new neighbor list and of the first forces of a run, update the list, and list the stages.
+------------------------------------------------------------------------- */
+
+void Fluid::begin_forces()
+{
   const FluidChecks check(lmp, style, *model);
   if (neighbor->ago == 0) {
     check.masses();
     if (checks_speed()) check_speed();
     if (checks_expansion()) check_expansion();
   }
-  if (update->setupflag) check.numbers();
-  remember_densities();
-  if (touched) {
-    const std::uint64_t hash = model->hash();
-    changed = changed || hash != model->hash_of_forces;
-    model->hash_of_forces = hash;
-    touched = false;
-  }
-  if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
-  if (model->choice.thermal) noise->count_step();
-  if (model->choice.own_temperatures && (neighbor->ago == 0 || update->setupflag))
-    noise->find_masses(boundary->bits());
-
-  const Constants &par = model->constants();
-  StepPlan plan;
-  plan.not_fluid = not_fluid();
-  const bool known = continued && !changed && update->setupflag;
-  const bool stiff_heat = par.conducts() && temperature->active() && !known;
-  const bool find_rates = !viscous->active();    // find_viscous_velocity() finds them
-  if (known) {
+  if (update->setupflag) {
+    check.numbers();
     viscous->begin_run();
     temperature->begin_run();
-  } else if (viscous->active())
-    find_viscous_velocity(plan);
-  if (stiff_heat && par.thermal_pressure) {
-    temperature->set_aside();
-    sum_before_forces(plan, find_rates);
-    sum_forces(nullptr, plan);
-    find_temperature();
-    temperature->restore();
   }
-  const bigint nbeyond = sum_before_forces(plan, find_rates);
-  sum_forces(tally, plan);
-  if (stiff_heat && !par.thermal_pressure) find_temperature();    // no force depends on heat
-  if (par.loops_of_flows) sum_flows();
-  if (par.delta > 0.0) sum_diffusion();
-  if (!open->empty()) open->sum_impacts(neighbors());
-  if (viscous->active() || model->choice.own_temperatures) forces->collect();
-  if (model->choice.own_temperatures) noise->share_work();
-  changed = false;
-  return nbeyond;
+  remember_densities();
+  if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
+  if (stages.empty() || listed_bits != not_fluid()) list_stages();
+}
+
+/* ---------------------------------------------------------------------- */
+
+Fluid::Forces Fluid::kind() const
+{
+  if (!update->setupflag) return Forces::LATER;
+  if (!continued) return Forces::FIRST;
+  return changed ? Forces::CHANGED : Forces::REPEATED;
 }
 
 /* ----------------------------------------------------------------------
-   Run pass 1 and all stages before pass 2; return the number of owned particles beyond the bound of the limit.
+   List the stages of the next forces, each with its condition, name, the data that it needs of earlier stages, and those that
+   it leaves.  An implicit step first needs the forces of a trial; repeated forces have its solution from the last run.
 ------------------------------------------------------------------------- */
 
-bigint Fluid::sum_before_forces(StepPlan &plan, bool find_rates)
+void Fluid::list_stages()
 {
-  sum_density();
+  const std::uint64_t hash = model->hash();
+  changed = changed || hash != model->hash_of_forces;
+  model->hash_of_forces = hash;
+  stages.clear();
+  listed_bits = not_fluid();
+  if (!pair_energies->active()) pair_energies->forget();
 
-  // The noise needs the bound of the limit with the volumes of walls: set these volumes before the bound
-
-  const bool walls = !boundary->empty();
   const Constants &par = model->constants();
-  if (walls && model->choice.thermal) set_reference_volume();
-  if (model->choice.limit != Limit::NO) sum_bound();
-  if (walls && !model->choice.thermal) set_reference_volume();
-  if (par.by_rate) find_viscosities(find_rates);
-  const bigint nbeyond = set_pressure();
-  if (!open->empty()) open->run();
-  if (walls) set_boundary();
-  if (walls && model->choice.own_temperatures) boundary->find_energies(missing_time());
-  if (model->choice.thermal) plan.noise = noise->run(bound(), boundary->bits(), continued);
-  return nbeyond;
+  const bool walls = !boundary->empty(), zones = !open->empty(), noisy = par.thermal,
+             warm = par.own_temperatures, solves = kind() != Forces::REPEATED,
+             stiff = viscous->active() && solves,
+             stiff_heat = temperature->active() && par.conducts() && solves;
+  const int bits = boundary->bits();
+  NeighList *const list = pair->list;
+  bool trial = false;
+  int left = MOTION | TEMPERATURES;    // by the integrator
+  const auto add = [&](bool listed, const char *name, int needs, int leaves,
+                       const std::function<void(StepData &)> &run) {
+    if (!listed) return;
+    assert(!(needs & ~left));
+    left |= leaves;
+    stages.push_back({name, needs, trial, run});
+  };
+  const auto call = [](auto &stage, auto function, auto... args) {
+    return [=, &stage](StepData &) {
+      (stage.*function)(args...);
+    };
+  };
+  const auto add_wall_volumes = [&](bool listed) {
+    add(listed, "wall volumes", VOLUMES, WALL_VOLUMES,
+        call(*boundary, &BoundaryStage::set_reference_volume));
+  };
+  const auto add_passes = [&](bool rates) {
+    add(true, "densities", MOTION, VOLUMES | SLOPES, call(*this, &Fluid::sum_density));
+    add_wall_volumes(walls && noisy);    // the bound of the noise is with these volumes
+    add(par.limit != Limit::NO, "bound", VOLUMES | SLOPES, BOUNDS, call(*limit, &LimitStage::run));
+    add_wall_volumes(walls && !noisy);
+    add(par.by_rate && rates, "shear rates", VOLUMES, VISCOSITIES,
+        call(*this, &Fluid::find_viscosities));
+    add(par.by_rate && !rates, "kept rates", VOLUMES, VISCOSITIES,
+        call(*viscosity, &ViscosityStage::keep, listed_bits));
+    add(true, "pressures", VOLUMES, PRESSURES, [this, bits](StepData &step) {
+      step.nbeyond = pressure->run(bound(), bits);
+    });
+    add(zones, "zones", PRESSURES, PRESSURES, call(*open, &OpenStage::run));
+    add(walls, "walls", PRESSURES | WALL_VOLUMES, WALLS,
+        call(*boundary, &BoundaryStage::run, list));
+    add(walls && warm, "wall energies", WALLS, TEMPERATURES, [this](StepData &) {
+      boundary->find_energies(missing_time());
+    });
+    add(noisy, "noise", RANDOM | SLOPES | PRESSURES, PRESSURES, [this, bits](StepData &step) {
+      step.noise = noise->run(bound(), bits, kind() != Forces::FIRST);
+    });
+    add(true, "pairs", PRESSURES, SUMS, [this, list](StepData &step) {
+      engine->accumulate_forces(list, step);
+    });
+    add(boundary->has_symmetric_friction(), "wall friction", WALLS | SUMS, SUMS,
+        [this](StepData &step) {
+          boundary->add_friction(step.tally, step.noise);
+        });
+    add(pair_energies->active(), "tension", VOLUMES | SUMS, SUMS, [this, list](StepData &step) {
+      pair_energies->run(list, step.tally);
+    });
+    add(true, "forces", SUMS, FORCES, call(*forces, &ForceStage::run, listed_bits));
+    add(walls && (noisy || par.continuity), "repulsion", WALLS | FORCES, FORCES,
+        [this](StepData &step) {
+          boundary->repel(step.tally);
+        });
+  };
+  const auto add_temperatures = [&](bool listed) {
+    add(listed, "temperatures", SLOPES | FORCES, TEMPERATURES,
+        call(*this, &Fluid::find_temperature));
+  };
+
+  add(noisy, "numbers", NOTHING, RANDOM, call(*noise, &NoiseStage::begin_step, bits));
+  if (stiff) {
+    trial = true;
+    add(true, "guess", NOTHING, MOTION, [this](StepData &) {
+      viscous->begin(listed_bits, extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
+    });
+    add_passes(true);
+    add(true, "velocities", SLOPES | FORCES, MOTION, call(*this, &Fluid::find_velocity));
+  }
+  if (stiff_heat && par.thermal_pressure) {
+    trial = true;
+    add(true, "aside", NOTHING, NOTHING, call(*temperature, &StiffStage::set_aside));
+    add_passes(!viscous->active());
+    add_temperatures(true);
+    add(true, "restored", NOTHING, NOTHING, call(*temperature, &StiffStage::restore));
+  }
+  trial = false;
+  add_passes(!viscous->active());    // else the rates of shear are those of the guess
+  add_temperatures(stiff_heat && !par.thermal_pressure);    // no force depends on heat
+  add(par.loops_of_flows, "flows", SLOPES | FORCES, FORCES, [this](StepData &) {
+    flows->run([this](std::vector<double> &heat) {
+      boundary->add_surface_heat(heat);
+    });
+  });
+  if (par.delta > 0.0 && update->whichflag != 2) {
+    add(true, "diffusion", SLOPES | PRESSURES, NOTHING, [this](StepData &) {
+      if (diffusion_is_due()) diffusion->evaluate(listed_bits, integrated);
+    });
+    add(true, "diffusion heat", FORCES, FORCES,
+        call(*diffusion, &DiffusionStage::add_heat, listed_bits, integrated));
+  }
+  add(zones, "ledger", SLOPES | PRESSURES, NOTHING, call(*open, &OpenStage::sum_impacts, list));
+  add(viscous->active() || warm, "totals", SUMS, SUMS, call(*forces, &ForceStage::collect));
+  add(warm, "work", SUMS | FORCES, FORCES, call(*noise, &NoiseStage::share_work));
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Fluid::finish()
+{
+  std::string lines;
+  for (const StageTime &one : times) {
+    double least, mean, most;
+    MPI_Reduce(&one.seconds, &least, 1, MPI_DOUBLE, MPI_MIN, 0, world);
+    MPI_Reduce(&one.seconds, &mean, 1, MPI_DOUBLE, MPI_SUM, 0, world);
+    MPI_Reduce(&one.seconds, &most, 1, MPI_DOUBLE, MPI_MAX, 0, world);
+    mean /= comm->nprocs;
+    lines +=
+        fmt::format("{:<15} | {:<10} | {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.2f}\n", one.name,
+                    one.calls, least, mean, most, 100.0 * mean / timer->get_wall(Timer::TOTAL));
+  }
+  if (comm->me == 0 && !times.empty())
+    utils::logmesg(
+        lmp,
+        "\nStages of pair style {}:\n{:<15} |   calls    |  min time  |  avg time  |  max "
+        "time  |%total\n{}\n{}",
+        style, "Stage", std::string(71, '-'), lines);
+  times.clear();
 }
 
 /* ----------------------------------------------------------------------
-   Set viscosities that are not constant, from the rates of shear of the present velocities (find_rates), or from the rates
-   that the particles keep.  For the rates, boundary particles have the velocity of the extended fluid; later their own.
+   Set viscosities that are not constant, from the rates of shear of the present velocities.  For the rates, boundary
+   particles have the velocity of the extended fluid; later their own.
 ------------------------------------------------------------------------- */
 
-void Fluid::find_viscosities(bool find_rates)
+void Fluid::find_viscosities()
 {
-  if (!find_rates) return viscosity->keep(not_fluid());
   if (boundary->empty()) return viscosity->run(not_fluid());
   const int nall = atom->nlocal + atom->nghost;
   Particle *const particle = engine->particle;
@@ -367,7 +488,7 @@ void Fluid::find_viscosities(bool find_rates)
     if (!is_boundary(i)) return;
     for (int d = 0; d < 3; d++) particle[i].u[d] = moves ? atom->vest[i][d] : 0.0;
   });
-  set_reference_volume();
+  boundary->set_reference_volume();
 }
 
 /* ----------------------------------------------------------------------
@@ -388,9 +509,10 @@ void Fluid::check_places()
 void Fluid::sum_density()
 {
   const bool minimize = (update->whichflag == 2);
-  const Constants &par = model->constants();
-  const bool slopes_read = viscous->active() || !open->empty() || !shift->movers.empty() ||
-      par.limit != Limit::NO || par.thermal || par.loops_of_flows || par.delta > 0.0;
+  const bool slopes_read = viscous->active() || !shift->movers.empty() ||
+      std::any_of(stages.begin(), stages.end(), [](const ListedStage &one) {
+                             return one.needs & SLOPES;
+                           });
   density->run(neighbors(), minimize ? nullptr : atom->vest,
                minimize ? nullptr : extrapolated_spin(), at_rest(), missing_time(), not_fluid(),
                slopes_read);
@@ -404,7 +526,7 @@ void Fluid::sum_density()
 
 double Fluid::missing_time() const
 {
-  if (update->setupflag && !continued) return 0.0;
+  if (kind() == Forces::FIRST) return 0.0;
   return (noise->shares_work() ? 0.5 : 1.0) * update->dt;
 }
 
@@ -482,32 +604,12 @@ void Fluid::advance_states()
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::sum_bound()
-{
-  limit->run();
-}
-
 const double *Fluid::bound() const
 {
   return (model->choice.limit != Limit::NO) ? limit->bound.data() : nullptr;
 }
 
 /* ---------------------------------------------------------------------- */
-
-void Fluid::set_reference_volume()
-{
-  boundary->set_reference_volume();
-}
-
-bigint Fluid::set_pressure()
-{
-  return pressure->run(bound(), boundary->bits());
-}
-
-void Fluid::set_boundary()
-{
-  boundary->run(neighbors());
-}
 
 void Fluid::shift_in_step(double keep)
 {
@@ -525,22 +627,6 @@ void Fluid::shift_particles(double keep)
 
 /* ---------------------------------------------------------------------- */
 
-void Fluid::sum_forces(PairTally *tally, const StepPlan &plan)
-{
-  forces->run(neighbors(), tally, plan, [&]() {
-    boundary->add_friction(tally, plan.noise);
-    pair_energies->run(neighbors(), tally);
-  });
-  if (!boundary->empty()) boundary->repel(tally);
-}
-
-void Fluid::sum_flows()
-{
-  flows->run([this](std::vector<double> &heat) {
-    boundary->add_surface_heat(heat);
-  });
-}
-
 double Fluid::received_heat(int groupbit) const
 {
   if (!model->constants().conducts() || !pair->compute_flag) return 0.0;
@@ -552,17 +638,14 @@ double Fluid::received_heat(int groupbit) const
 }
 
 /* ----------------------------------------------------------------------
-   Solve for the implicit velocities.  The matrix is not symmetric if walls extend the velocity of the fluid, or with the
+   Solve for the implicit velocities, after the passes of the guess.  The matrix is not symmetric if walls extend the velocity of the fluid, or with the
    form P1 (64), bulk volume.
 ------------------------------------------------------------------------- */
 
-void Fluid::find_viscous_velocity(StepPlan &plan)
+void Fluid::find_velocity()
 {
-  viscous->begin(not_fluid(), extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
-  sum_before_forces(plan);
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(coeff_table().fastest_rate());
-  sum_forces(nullptr, plan);
   const bool symmetric = !boundary->has_mean_pressure() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }
@@ -579,30 +662,18 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   Evaluate the diffusion of volume, if its interval is over, and add its heat.  Do nothing in a minimization.  A run that
-   continues the last run with the same coefficients keeps the rates of the last run.
+   Count the steps to the next diffusion of volume.  Repeated forces keep the rates of the last run.
 ------------------------------------------------------------------------- */
 
-void Fluid::sum_diffusion()
+bool Fluid::diffusion_is_due()
 {
-  if (update->whichflag == 2) return;
   int &age = model->diffusion_age;
-  if (!update->setupflag)
+  const Forces now = kind();
+  if (now == Forces::LATER)
     age = (age + 1 < diffusion_interval()) ? age + 1 : 0;
-  else if (!continued || changed)
+  else if (now != Forces::REPEATED)
     age = 0;
-  if (age == 0) evaluate_diffusion();
-  add_diffusion_heat();
-}
-
-void Fluid::evaluate_diffusion()
-{
-  diffusion->evaluate(not_fluid(), integrated);
-}
-
-void Fluid::add_diffusion_heat()
-{
-  diffusion->add_heat(not_fluid(), integrated);
+  return age == 0;
 }
 
 /* ----------------------------------------------------------------------

@@ -46,7 +46,7 @@ namespace SPHDissipation {
   class OpenStage;
   class PairEnergyStage;
   class PairTally;
-  struct StepPlan;
+  struct StepData;
   class PressureStage;
   class StateStage;
   class TemperatureStage;
@@ -112,6 +112,7 @@ namespace SPHDissipation {
     // beyond the bound of the limit
 
     virtual bigint compute(PairTally *);
+    void finish();    // after a run: with timer full, print the times of the stages
 
     // Called by the integrator when a run begins; dt = time step of the states; Changes since the last run
 
@@ -217,20 +218,21 @@ namespace SPHDissipation {
 
     NeighList *neighbors();    // half list of the particles at their present places
 
-    // Parts of compute() on the host; FluidKokkos runs these parts on a device.  set_pressure() returns the number of owned
-    // particles beyond the bound of the limit
+    // Stages of the forces of a step, in their order; FluidKokkos replaces functions by those of a device
 
-    virtual void sum_density();
+    struct ListedStage {
+      const char *name;
+      int needs;     // data of earlier stages
+      bool trial;    // for the solution of an implicit step
+      std::function<void(StepData &)> run;
+    };
+    std::vector<ListedStage> stages;    // of the next forces; empty: to be listed
+    virtual void list_stages();
+
     virtual void set_step(double dt);    // for the numbers of the states
     virtual void advance_states();
-    virtual void sum_bound();
-    virtual void set_reference_volume();    // for boundary particles
-    virtual bigint set_pressure();
-    virtual void set_boundary();
-    virtual void sum_forces(PairTally *, const StepPlan &);
-    virtual void sum_flows();             // conduction and other flows
-    virtual void evaluate_diffusion();    // of volume
-    virtual void add_diffusion_heat();
+    bool diffusion_is_due();                                // once in each step
+    virtual void fence() const {}                           // wait for the device
     virtual double wall_energy(double *each_atom) const;    // see energy()
 
     virtual bool has_own_forces() const;    // on this processor
@@ -249,8 +251,7 @@ namespace SPHDissipation {
     bool set_up = false;       // init() has run since the last pair_style or pair_coeff
     bool announced = false;    // the table in the log has the present coefficients
     bool continued =
-        false;               // the run continues the last one, with the velocities of its last step
-    bool touched = false;    // a command has set coefficients, maybe to the same values
+        false;    // the run continues the last one, with the velocities of its last step
     bool follows =
         false;    // the first forces of the run change densities as their sums have changed
     std::vector<double> densities_before;    // densities of owned particles before such forces
@@ -265,6 +266,21 @@ namespace SPHDissipation {
     double look_after = 0.0;    // time until check_elasticity() runs again; 0: never
     double moving = 0.0;        // time since check_elasticity() ran
 
+    // The forces of a step: the first ones of a run with a motion of its own; those that continue the motion of the last run,
+    // with other coefficients or walls, or as they were; or later ones in a run
+
+    enum class Forces { FIRST, CHANGED, REPEATED, LATER };
+    Forces kind() const;
+
+    struct StageTime {
+      const char *name;
+      double seconds;
+      bigint calls;
+    };
+    std::vector<StageTime> times;    // on this processor since the last finish()
+    int listed_bits = 0;             // not_fluid() when the stages were listed
+
+    void begin_forces();
     void check_setup();
     void check_places();
     void remember_densities();
@@ -275,11 +291,10 @@ namespace SPHDissipation {
     void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits
     void derive_coeffs();
-    bigint sum_before_forces(StepPlan &, bool find_rates = true);
-    void find_viscosities(bool find_rates);
+    void find_viscosities();
     const double *bound() const;    // of LimitStage, by particle; nullptr without limit
-    void sum_diffusion();
-    void find_viscous_velocity(StepPlan &);
+    void sum_density();
+    void find_velocity();
     void find_temperature();
     double stability_length() const;
     double smallest_inertia() const;

@@ -85,6 +85,15 @@ void NoiseStage::set_surface_noise()
   surface_data.coeff = surface_coeff.data();
 }
 
+/* ---------------------------------------------------------------------- */
+
+void NoiseStage::begin_step(int not_fluid)
+{
+  count_step();
+  if (engine.parameters().own_temperatures && (neighbor->ago == 0 || update->setupflag))
+    find_masses(not_fluid);
+}
+
 /* ----------------------------------------------------------------------
    Raise the offset if reset_timestep goes back, so that random numbers continue: a setup repeats those of the last step, all
    else has those of the next step.  rerun repeats the numbers.

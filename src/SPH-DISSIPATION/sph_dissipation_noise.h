@@ -44,9 +44,10 @@ namespace SPHDissipation {
     {
     }
 
-    // Set the step of the random numbers: once in each step, before run().  A step may call run() more than once
+    // Once in each step, before run(), which a step may call more than once: set the step of the random numbers; with temp
+    // energy, find whether masses of the fluid differ; not_fluid as below
 
-    void count_step();
+    void begin_step(int not_fluid);
 
     // Before pass 2: add the random pressure to Particle::g; return the noise of pairs and single particles, for pass 2.
     // bound = of LimitStage, nullptr without; not_fluid = bits of the groups of boundary particles, which have no random
@@ -60,7 +61,6 @@ namespace SPHDissipation {
 
     void share_work();
     bool shares_work() const { return data.unequal; }
-    void find_masses(int not_fluid);    // before run(): finds whether masses of the fluid differ
 
     // Return the noise of the states of owned particles, for StateStage::advance() in the next step
 
@@ -80,6 +80,8 @@ namespace SPHDissipation {
     std::vector<Acceleration> acceleration;
     bool cold_arrival = false;    // particles without heat have come in this run
 
+    void count_step();
+    void find_masses(int not_fluid);
     void check_box() const;
     void set_tags();
     void set_temperatures(bool continued, int not_fluid);

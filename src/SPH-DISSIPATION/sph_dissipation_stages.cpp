@@ -146,12 +146,9 @@ void ViscosityStage::run(int not_fluid)
                                            density.cdot / density.c),
                         0.0))
         : 0.0;
-    rows.set_viscosity(i, shear_rate[i], not_fluid);
   });
-  exchange.forward({{engine.viscosity.data(), 1, 1}});
+  keep(not_fluid);
 }
-
-/* ---------------------------------------------------------------------- */
 
 void ViscosityStage::keep(int not_fluid)
 {
@@ -293,6 +290,12 @@ bool PairEnergyStage::active() const
   return !engine.parameters().pair_energy.empty();
 }
 
+void PairEnergyStage::forget()
+{
+  pairs.clear();
+  energies.clear();
+}
+
 void PairEnergyStage::find_pairs(NeighList *list, const PairEnergyKernel &kernel)
 {
   const Parameters &par = engine.parameters();
@@ -331,10 +334,6 @@ void PairEnergyStage::visit(std::size_t from, std::size_t to, Function &&functio
 
 void PairEnergyStage::run(NeighList *list, PairTally *tally)
 {
-  if (!active()) {    // the pairs do not follow the neighbor lists
-    pairs.clear();
-    return energies.clear();
-  }
   const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
   if (neighbor->ago == 0 || energies != engine.parameters().pair_energy) find_pairs(list, kernel);
 
@@ -598,12 +597,8 @@ inline double ForceStage::bulk_heat(int i) const
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::run(NeighList *list, PairTally *tally, const StepPlan &plan,
-                     const std::function<void()> &add_more)
+void ForceStage::run(int not_fluid)
 {
-  engine.accumulate_forces(list, tally, plan);
-  add_more();
-
   double **f = atom->f;
   double *const desph = atom->desph;
   const int n = nforce(), nlocal = atom->nlocal;
@@ -619,7 +614,7 @@ void ForceStage::run(NeighList *list, PairTally *tally, const StepPlan &plan,
   if (engine.parameters().drag)
     engine.for_each(atom->nlocal, [&](int i) {
       double channel[NCHANNEL] = {};
-      add_drag_heat(i, plan.not_fluid, channel);
+      add_drag_heat(i, not_fluid, channel);
       for (const double heat : channel) desph[i] += heat;
     });
 

@@ -32,10 +32,9 @@ namespace SPHDissipation {
   class Exchange;
   class PairTally;
   struct PairEnergyKernel;
-  struct StepPlan;
 
   // A stage of the force computation: its sums over the pairs of pass 1, and its messages to and from ghost atoms.
-  // Fluid::compute() lists the stages in their order.
+  // Fluid::list_stages() has the order of the stages.
 
   class Stage : protected Pointers {
    public:
@@ -174,6 +173,7 @@ namespace SPHDissipation {
     using Stage::Stage;
 
     bool active() const;
+    void forget();    // while it is not active, its pairs do not follow the neighbor lists
     // Add the forces to the sums of the engine, with a tally of each pair, or nullptr
     void run(NeighList *, PairTally *);
     // Return the energy of the particles of a group, half of each pair, at the last run(), on this processor; add it to the
@@ -249,15 +249,14 @@ namespace SPHDissipation {
     template <class Sum, class Add> const Sum *sum_up(const Add &);
   };
 
-  // Pass 2: adds forces, torques and heating of owned and ghost atoms to the arrays of LAMMPS; LAMMPS sends the sums of
-  // ghosts to their owners
+  // After pass 2: adds the sums of the engine, forces, torques, and heating of owned and ghost atoms, to the arrays of
+  // LAMMPS, which sends those of ghosts to their owners
 
   class ForceStage : public Stage {
    public:
     using Stage::Stage;
 
-    // Run with a tally of each pair, or nullptr; after pass 2, add_more() adds to the sums of the engine
-    void run(NeighList *, PairTally *, const StepPlan &, const std::function<void()> &add_more);
+    void run(int not_fluid);    // as above
 
     // Add the force and torque of ghosts to the sums of their owners in the engine as well
 

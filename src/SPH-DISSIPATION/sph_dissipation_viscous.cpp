@@ -165,10 +165,7 @@ void ViscousStage::run(NeighList *list_in, const double *bound_in, bool symmetri
 
 void StiffStage::solve_step()
 {
-  if (update->setupflag) {
-    begin_run();
-    outdated = true;
-  }
+  if (update->setupflag) outdated = true;
   statistics[ITERATIONS] = statistics[RESIDUAL] = 0.0;
   if (update->setupflag)
     start();

@@ -101,7 +101,7 @@ namespace SPHDissipation {
     void forget_rates() { outdated = true; }
     bool has_old_rates() const { return outdated; }
 
-    void begin_run();    // solve_step() calls it in a setup
+    void begin_run();    // before the first forces
 
     // Set forces, torques and heat of LAMMPS aside, and set forces and torques to zero; bring them back
     void set_aside();

@@ -148,3 +148,29 @@ def test_station_is_in_its_file(file, name):
     if name.endswith("()"):
         function = name.removesuffix("()") if file.endswith(".cpp") else last
         assert re.search(rf"\b{function}\([^;{{}}]*\)[^;{{}}]*\n? *{{", text), f"{file} does not define {name}"
+
+
+def stages_of_page():
+    """Needs and leaves of each stage, from the table of the section "The stages of the forces"."""
+    page = PAGE.with_name("design_sph_stages.rst").read_text()
+    rows = re.findall(r"^   \* - ([a-z ]+)\n     - ([A-Z_ ]+|none)\n     - ([A-Z_ ]+|none)\n", page, re.M)
+    return {name: (needs.replace("none", "").split(), leaves.replace("none", "").split()) for name, needs, leaves in rows}
+
+
+def test_stages_are_those_of_the_page():
+    """In the order in which the page has them, which is that of the first list with all of them."""
+    text = (SOURCES / "sph_dissipation_fluid.cpp").read_text()
+    function = text[text.index("void Fluid::list_stages()"):text.index("void Fluid::finish()")]
+    data = r"([A-Z_]+(?: \| [A-Z_]+)*)"
+    found = {name: tuple(words.replace("NOTHING", "").replace("|", "").split() for words in (needs, leaves))
+             for name, needs, leaves in re.findall(rf'add\([^"]*"([a-z ]+)",\s*{data},\s*{data},', function)}
+    assert len(found) > 20 and found == stages_of_page()
+    constants = re.search(r"static constexpr int (NOTHING = 0.*?);", text, re.S)[1]
+    values = [int(value) for value in re.findall(r"= (\d+)", constants)]
+    assert values == [0, *(2**k for k in range(len(values) - 1))]
+
+
+def test_a_device_replaces_stages():
+    text = (ROOT / "src" / "KOKKOS" / "sph_dissipation_fluid_kokkos.cpp").read_text()
+    names = re.findall(r'\{"([a-z ]+)", &Own::', text)
+    assert len(names) > 5 and set(names) < set(stages_of_page())

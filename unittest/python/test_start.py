@@ -8,6 +8,8 @@ import pytest
 
 import test_wall as walls
 from helpers import INTEGRATE, SUPPORT, disordered, drop, dump, fluid, free, header, lattice
+from test_combinations import combined, write as write_case
+from test_layers import stages_of_page
 from test_micropolar import spins, write
 
 MICRO = "sph/micropolar"
@@ -285,3 +287,42 @@ minimize 0.0 1e-8 10 10
 write_dump all custom x.dump id mass modify format float %.17g
 """)
     assert np.abs(lammps.frame("x.dump")["mass"] - 1.0).max() < 0.02
+
+
+# ---------------------------------------------------------------------------------------------
+# times of the stages, timer full
+
+
+STAGES = {("gravity",): "densities pressures pairs forces",
+          ("implicit", "heat"): "guess densities pressures pairs forces velocities aside densities pressures pairs forces temperatures "
+                                "restored densities pressures pairs forces flows totals",
+          ("rkl2", "thinning"): "guess densities shear rates pressures pairs forces velocities densities kept rates pressures pairs forces totals",
+          ("walls", "noise", "limit"): "numbers densities wall volumes bound pressures walls noise pairs wall friction forces repulsion",
+          ("walls", "warm"): "numbers densities wall volumes pressures walls wall energies noise pairs wall friction forces repulsion totals work",
+          ("surface", "walls"): "densities wall volumes pressures walls pairs forces repulsion diffusion diffusion heat",
+          ("open", "tension"): "densities pressures zones pairs tension forces ledger"}
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+@pytest.mark.parametrize("names", STAGES)
+def test_times_of_stages(lammps, ranks, names):
+    """Those of the page, in an order in which each has what it needs; each runs once in a step, or as often as it is listed."""
+    page = stages_of_page()
+    write_case(lammps.folder, "case", combined(names))
+    lammps("timer full\n" + write_case(lammps.folder, "case", combined(names)) + "timer normal\nrun 5\n", ranks=ranks)
+    log = lammps.path("case.log").read_text()
+    tables = re.findall(r"^Stages of pair style \S+:\n.*\n-+\n((?:.*\|.*\n)+)\nMPI task", log, re.M)
+    assert len(tables) == 2 == log.count("MPI task timing breakdown") - 2    # run 5 twice; not run 0, not without full
+    loops = [float(time) for time in re.findall(r"^Loop time of (\S+) on", log, re.M)]
+    for table, loop in zip(tables, loops):
+        rows = [[word.strip() for word in row.split("|")] for row in table.splitlines()]
+        assert " ".join(name for name, *_ in rows) == STAGES[names]
+        left = {"MOTION", "TEMPERATURES"}
+        for name, *numbers in rows:
+            needs, leaves = page[name]
+            assert left.issuperset(needs)
+            left.update(leaves)
+            calls, least, mean, most, part = map(float, numbers)
+            assert calls == 5 and 0.0 < least <= mean * 1.0001 and mean <= most * 1.0001
+            assert abs(part - 100.0 * mean / loop) < 0.1 * part + 0.1
+        assert sum(float(row[3]) for row in rows) < loop
