@@ -255,7 +255,7 @@ void FluidKokkos<DeviceType>::begin_run(double dt, bool continues, const Changes
 template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 {
   if (!on_device) {
-    atomKK->sync(Host, HEAT);
+    atomKK->sync(Host, HEAT | OFFSET_MASK);
     Fluid::advance_states();
     return atomKK->modified(Host, STATES_MASK);
   }

@@ -411,7 +411,7 @@ void AtomVecSPHBulk::pack_property_atom(int index, double *buf, int nvalues, int
       !find_fluid(lmp, "Compute property/atom shear_rate")->model->has_rheology())
     error->all(FLERR,
                "Compute property/atom shear_rate needs a pair style with power, carreau, cross, "
-               "yield, smagorinsky, or arrhenius of pair_coeff");
+               "yield, smagorinsky, arrhenius, or thixotropy of pair_coeff");
   const std::vector<double> temperature = (index == TSPH) ? temperatures() : std::vector<double>();
 
   // arrays in the order of the names

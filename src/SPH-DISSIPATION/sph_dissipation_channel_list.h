@@ -24,5 +24,6 @@
 #include "sph_dissipation_channel_interdrag.h"
 #include "sph_dissipation_channel_heat.h"
 #include "sph_dissipation_channel_solute.h"
+#include "sph_dissipation_channel_thixotropy.h"
 #include "sph_dissipation_channel_tension.h"
 // clang-format on

@@ -132,6 +132,12 @@ void FluidChecks::rerun() const
                  "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
                  "internal energies of the particles",
                  style, keyword, i);
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (const char *keyword = model.keyword_that_needs(NO_RERUN, i))
+      error->all(FLERR, Error::NOLASTLINE,
+                 "Pair style {} with {} of type {} cannot be used with rerun: snapshots have no "
+                 "states of the particles",
+                 style, keyword, i);
   if (model.choice.continuity)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair style {} density continuity cannot be used with rerun: snapshots have no "

@@ -234,6 +234,7 @@ StateRows Engine::states() const
   for (int k = 0; k < Flows::NUMBER; k++)
     if ((par->flows >> k & 1) && flow_rate[k].size() >= static_cast<std::size_t>(atom->nlocal))
       rows.rate[k] = flow_rate[k].data();
+  rows.shear_rate = Fields::of(atom)->shear_rate;
   if (!wall_energy.empty()) {
     follow_atoms();
     rows.by_walls = wall_energy.data();

@@ -61,6 +61,16 @@ FluidModel::~FluidModel()
   delete[] coeffs;
 }
 
+/* ----------------------------------------------------------------------
+   Return the smallest and the largest viscosity of a type, with its states.
+------------------------------------------------------------------------- */
+
+static Rheology::Range range_of_viscosity(const TypeCoeffs &type, double mu)
+{
+  return {Rheology::range(type.rheology(), mu).least,
+          Rheology::range(type.rheology(), mu + States::largest_viscosity(type)).most};
+}
+
 /* ---------------------------------------------------------------------- */
 
 void FluidModel::derive(int dim, double support)
@@ -95,7 +105,7 @@ void FluidModel::derive(int dim, double support)
       derived.zeta = bulk_coefficient(type.kappa, intrinsic);
     derived.zeta_at_0 = derived.zeta;
     derived.zeta_by_mu = 0.0;
-    if (Rheology::any(derived.keywords.rheology()) && !type.intrinsic) {
+    if (keyword_that_needs(RHEOLOGY, i) && !type.intrinsic) {
       derived.zeta_at_0 = type.kappa;
       derived.zeta_by_mu = -SPHDissipation::intrinsic_kappa(choice.shear, dim, 1.0);
     }
@@ -172,7 +182,7 @@ TypePair FluidModel::pair_fluid(int i, int j) const
     Rheology::Range range[2];
     for (int k = 0; k < 2; k++) {
       const TypeParameters &one = par->type[k ? j : i];
-      range[k] = Rheology::range(one.keywords.rheology(), one.mu);
+      range[k] = range_of_viscosity(one.keywords, one.mu);
       for (const double mu : {range[k].least, range[k].most})
         fluid.largest_zeta =
             std::max(fluid.largest_zeta, std::fabs(one.zeta_at_0 + one.zeta_by_mu * mu));
@@ -331,7 +341,7 @@ void FluidModel::check_rheology(int i) const
 bool FluidModel::has_rheology() const
 {
   for (int i = 1; coeffs && i <= atom->ntypes; i++)
-    if (!coeffs[i].other && Rheology::any(TypeCoeffs(coeffs[i].keywords).rheology())) return true;
+    if (keyword_that_needs(RHEOLOGY, i)) return true;
   return false;
 }
 
@@ -341,10 +351,13 @@ bool FluidModel::has_rheology() const
 
 bool FluidModel::is_alike(int i, int j) const
 {
-  const TypeCoeffs of_i(coeffs[i].keywords), of_j(coeffs[j].keywords);
-  const double *const a = of_i.rheology(), *const b = of_j.rheology();
+  const auto &a = coeffs[i].keywords, &b = coeffs[j].keywords;
   return coeffs[i].viscosity[MU] == coeffs[j].viscosity[MU] &&
-      std::equal(a, a + Rheology::NUMBER, b);
+      std::all_of(keywords.begin(), keywords.end(), [&](const TypeKeyword &one) {
+           const auto first = a.begin() + one.first;
+           return !(one.needs & RHEOLOGY) ||
+               std::equal(first, first + one.count, b.begin() + one.first);
+         });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -426,7 +439,7 @@ void FluidModel::warn_of_ignored() const
       error->warning(FLERR, "Pair_coeff: {} of type {} is ignored", what, i);
     });
     const char *const law = keyword_that_needs(RHEOLOGY, i);
-    if (law && Rheology::range(keywords_of.rheology(), type.viscosity[MU]).most == 0.0)
+    if (law && range_of_viscosity(keywords_of, type.viscosity[MU]).most == 0.0)
       error->warning(FLERR, "Pair_coeff {} of type {} is ignored: mu is 0; give mu > 0", law, i);
     const double intrinsic = intrinsic_kappa(i, i);
     if (choice.bulk != Bulk::NONE || type.kappa == intrinsic) continue;

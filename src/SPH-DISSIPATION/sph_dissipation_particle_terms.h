@@ -47,6 +47,7 @@ namespace SPHDissipation {
     const double *by_walls =
         nullptr;    // energy of each particle in the forces of walls; nullptr: none
     const double *rate[Flows::NUMBER] = {};    // by flows in the last forces; nullptr: none
+    const double *shear_rate = nullptr;        // in the last forces
 
     // Return the state of a channel with a single one; return its rate by the flow of the channel
     template <class Channel> SPH_FUNCTION double state_of(int i) const
@@ -93,8 +94,8 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the pressure of the states; return the energy of the states, or its elastic part; add the heat of the states
-    // per time to the heat by channel
+    // Return the pressure of the states; return what they add to mu; return their energy, or its elastic part; add the heat
+    // of the states per time to the heat by channel
 
     SPH_FUNCTION double pressure(int i) const
     {
@@ -103,6 +104,14 @@ namespace SPHDissipation {
         sum += channel.pressure(site);
       });
       return rho[i] * sum;
+    }
+    SPH_FUNCTION double viscosity(int i) const
+    {
+      double sum = 0.0;
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        sum += channel.viscosity(site);
+      });
+      return sum;
     }
     SPH_FUNCTION double energy(int i, bool elastic = false) const
     {
@@ -277,7 +286,7 @@ namespace SPHDissipation {
     {
       const TypeParameters &own = types[type[i]];
       viscosity[i] = is_fluid(i, not_fluid)
-          ? Rheology::viscosity(own.keywords.rheology(), own.mu, rho[i], rate,
+          ? Rheology::viscosity(own.keywords.rheology(), own.mu + states.viscosity(i), rho[i], rate,
                                 states.temperature(i))
           : -1.0;
     }

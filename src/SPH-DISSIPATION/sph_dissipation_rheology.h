@@ -61,12 +61,6 @@ namespace SPHDissipation {
       NUMBER
     };
 
-    static bool any(const double *a)
-    {
-      return a[POWER_N] != 0.0 || a[CARREAU_LAMBDA] != 0.0 || a[CROSS_LAMBDA] != 0.0 ||
-          a[YIELD_STRESS] != 0.0 || a[SMAGORINSKY_LENGTH] != 0.0 || a[ARRHENIUS_E] != 0.0;
-    }
-
     SPH_FUNCTION static double between(double least, double value, double most)
     {
       return (value < least) ? least : (value > most) ? most : value;
@@ -109,7 +103,7 @@ namespace SPHDissipation {
       return sum;
     }
 
-    // Return the smallest and the largest viscosity
+    // Return the smallest and the largest viscosity; they grow with mu
     struct Range {
       double least, most;
     };

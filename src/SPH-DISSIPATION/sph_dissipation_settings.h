@@ -124,8 +124,9 @@ namespace SPHDissipation {
     NOT_EOS_IDEAL = 8,
     NO_OPEN_ENDS = 16,
     TENSION = 32,
-    RHEOLOGY = 64,            // mu that may not be constant, see FluidModel::check_rheology()
-    THERMAL_FRICTION = 128    // the friction depends on temperatures
+    RHEOLOGY = 64,             // mu that may not be constant, see FluidModel::check_rheology()
+    THERMAL_FRICTION = 128,    // the friction depends on temperatures
+    NO_RERUN = 256             // forces depend on a state that snapshots do not have
   };
 
   // Keyword of pair_coeff with coefficients of a type: count numbers, or up to count in groups of equal size.

@@ -70,6 +70,7 @@ namespace SPHDissipation {
     SPH_FUNCTION double strain() const { return strain_at(rho(), state()); }
     SPH_FUNCTION double mass() const { return rows.rmass[i]; }
     SPH_FUNCTION double rho() const { return rows.rho[i]; }
+    SPH_FUNCTION double shear_rate() const { return rows.shear_rate[i]; }    // with by_rate
     // Return the rate of the state by the flow of the channel
     SPH_FUNCTION double flow() const { return rows.template rate_of<Channel>(i); }
   };
@@ -94,6 +95,9 @@ namespace SPHDissipation {
     template <class Site> SPH_FUNCTION static double pressure(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double energy(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double heat(const Site &) { return 0.0; }
+    // Return what the state adds to mu; return its largest value for a type.  The keyword must need RHEOLOGY
+    template <class Site> SPH_FUNCTION static double viscosity(const Site &) { return 0.0; }
+    static double largest_viscosity(const double *) { return 0.0; }
     // Set the state of a particle if the particle is new (state 0); not called for StateKind::STRAIN.  Argument: temperature
     // of the new particle; negative: the particle already has its internal energy
     template <class Site> SPH_FUNCTION static void begin(const Site &, double) {}
@@ -175,6 +179,10 @@ namespace SPHDissipation {
     template <class Coeffs> static double stiffness(const Coeffs &type, double rho0, double dt)
     {
       return (One::stiffness(type.template of<One>(), rho0, dt) + ...);
+    }
+    template <class Coeffs> static double largest_viscosity(const Coeffs &type)
+    {
+      return (One::largest_viscosity(type.template of<One>()) + ...);
     }
     // Return the strength of the noise of the state at a place
     static double noise(const Numbers &numbers, int slot)

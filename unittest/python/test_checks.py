@@ -229,7 +229,7 @@ def each_number(line):
 
 COEFFS = [f"pair_coeff * * 1 10 .1 .3 2.7 {line}" for keywords in (
     "pb 1", "gamma 7", "cv 1 conductivity .5", "cv 1 gruneisen .5 1", "drag 1 .5 .5 .5", "power .5 .1 1", "carreau 1 .5 1 .1", "cross 1 .5 .1", "yield 1 1",
-    "smagorinsky 1 1", "cv 1 arrhenius 1 1 2", "relax 1 1", "solute .1") for line in each_number(keywords) if " X" in line]
+    "smagorinsky 1 1", "cv 1 arrhenius 1 1 2", "relax 1 1", "solute .1", "thixotropy 1 .5 2") for line in each_number(keywords) if " X" in line]
 COEFFS += [line.replace("pair_coeff X", "pair_coeff *") for line in each_number("pair_coeff * * 1.0 10 .1 .3 2.7") if not line.endswith("* * X 10 .1 .3 2.7")]
 NUMBERS = (COEFFS + ["pair_coeff 1 2 mu X", "pair_coeff 1 2 interdrag X", "pair_coeff 1 2 tension X"]
            + [f"pair_style sph/bulk {words}" for words in ("temp X 5", "temp energy X 5", "density continuity delta X")]

@@ -110,11 +110,11 @@ def body(fix):
 LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or of a coefficient
 TARGET = "1.0-0.75*(x>3[l])*(x<6[l])+1.6*(x>10[l])*(x<13[l])"
 NOT_WITH_BODIES = {"open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
-                   "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "rerun": "rerun"}
+                   "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "thixotropy": "not constant", "rerun": "rerun"}
 NOT_WITH_LAWS = {"warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit", "spin": "sph/bulk", "idle_spin": "sph/bulk"}
 
 FEATURES = {
-    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}, nearly_with={"thinning": 1e-3}),
+    "rkl2": Feature(Lines(integrator=("viscous rkl2",)), nearly=Lines(), refused={"noise": "temp"}, nearly_with={"thinning": 1e-3, "thixotropy": 1e-3}),
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0[v/t] vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3[v]")),
@@ -160,8 +160,10 @@ FEATURES = {
     "thinning": Feature(Lines(keywords=("power 0.6 0.05[pt] 1.5[pt] yield 0.05[p] 5[t]",)), refused={**NOT_WITH_LAWS, "open": "power", "noise": "drift"}),
     "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05[T] 0.02[T] 1.5",)),
                          Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05[T] 0.04[T] {1.5 * np.exp(1.25)}",)),
-                         not_plain_with=("adapt", "thinning"), refused={**NOT_WITH_LAWS, "open": "arrhenius", "rkl2": "viscous", "implicit": "viscous",
+                         not_plain_with=("adapt", "thinning", "thixotropy"), refused={**NOT_WITH_LAWS, "open": "arrhenius", "rkl2": "viscous", "implicit": "viscous",
                                                                        "noise": "arrhenius", "rerun": "arrhenius"}),
+    "thixotropy": Feature(Lines(room=("thixotropy",), state=("0.3",), keywords=("thixotropy 0.8[pt] 2.0[1/t] 5.0",)),
+                          refused={**NOT_WITH_LAWS, "open": "thixotropy", "noise": "drift", "rerun": "states"}),
     "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0[pt] 0.02[t] 3.0[pt] 0.5[t]",))),
     "heat": Feature(Lines(cv=100.0, conductivity=30.0, keywords=("gruneisen 0.5 0.01[T]",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
@@ -473,10 +475,11 @@ def test_pair(cases, names):
 ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "open": r"ix sph/open\b",
             "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
             "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
-            "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant",
+            "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant", "thixotropy": r"\*thixotropy\*|iscosities that are not constant",
             "heat": r"\*(conductivity|gruneisen)\*", "solute": r"\*solute\*", "gas": r"\*eos ideal\*"}
 # sentences that say it in another way
 REQUIRED = {frozenset(["thinning", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "spin"]): r"Pair style \*sph/bulk\*.* required",
+            frozenset(["thixotropy", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["thixotropy", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["thinning", "idle_spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["heat", "gas"]): r"\*gruneisen\* values .*with \*eos linear\* and \*tait\*",
             frozenset(["hot_bodies", "noise"]): r"\*temp T seed\* .*\*conductivity\*"}

@@ -139,7 +139,7 @@ REFUSALS = {
     "Fix {} {} move rigid cannot be used with the thermostat": [(WALL, "*move rigid*", "thermostats")],
     "Pair style {} {} cannot be used with rerun": [(PAIR, "Rerun", ["*eos ideal*", "*temp energy*"]), (NOISE, "*temp energy*", "rerun")],
     "Pair style {} with {} of type {} cannot be used with rerun": [
-        (PAIR, "Rerun", sorted({*keywords("HEAT_CAPACITY")} - {*keywords("EOS_IDEAL")})), (RHEOLOGY, "*arrhenius*", "rerun"),
+        (PAIR, "Rerun", sorted({*keywords("HEAT_CAPACITY")} - {*keywords("EOS_IDEAL")})), (RHEOLOGY, "*arrhenius*", "rerun"), (RHEOLOGY, keywords("NO_RERUN"), "rerun"), (PAIR, "Rerun", keywords("NO_RERUN")),
         ("pair_sph_bulk_heat", "rerun", ["*conductivity*", "*gruneisen*"])],
     "Pair style {} density continuity cannot be used with rerun": [(PAIR, "Rerun", "*density continuity*")],
     "Pair style {} cannot be combined with another sph/bulk or sph/micropolar": [(PAIR, "can be part of a hybrid style once")],

@@ -79,6 +79,7 @@ def fluid_for(text):
     file = re.search(r"(fluids|gases)\.sph", text)
     room = " relax 2" if re.search(r"gases\.sph| relax | vibration |d_rho_relaxed|kappa_r", text) else ""
     room += " solute" if re.search(r" solute |d_solute", text) else ""
+    room += " thixotropy" if re.search(r" thixotropy |d_structure", text) else ""
     lines = [f"units {'si' if file else 'lj'}", f"dimension {3 if solid else 2}", f"atom_style {style}{room}", "atom_modify map yes",
              f"region box block -6 6 -6 6 {z} units box", f"create_box {types} box",
              f"lattice {'sc' if solid else 'sq'} 1.0", "create_atoms 1 box", "set group all mass 1.0",
