@@ -55,7 +55,6 @@ namespace SPHDissipation {
 
     void choose(bool device);
     void request_list() override;
-    bool computes_on_device() const { return on_device; }
     uint64_t read_mask() const;    // fields that the forces read on the device, and modify
     uint64_t modified_mask() const;
     ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device

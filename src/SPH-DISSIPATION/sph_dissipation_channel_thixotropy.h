@@ -45,6 +45,7 @@ namespace SPHDissipation {
         {{"thixotropy", NTYPE, 0, RHEOLOGY | NO_RERUN}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"thixotropy", MU1}}};
     static constexpr const char *FIELD = "structure", *KEYWORD = "thixotropy";
+    static constexpr double LARGEST = 1.0;
     typedef Thixotropy Numbers;
 
     static int count(const double *type) { return (type[MU1] > 0.0) ? 1 : 0; }

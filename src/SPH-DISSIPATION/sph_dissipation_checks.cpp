@@ -593,15 +593,18 @@ void FluidChecks::states() const
   constexpr double IN_ANOTHER_COLUMN = -1.0;
   const Fields &fields = *Fields::of(atom);
   for (const int slot : fields.slots) {
-    if (state_info(slot).kind != StateKind::PER_MASS) continue;
-    const double *const state = fields.state[slot];
+    const StateInfo info = state_info(slot);
+    if (info.kind != StateKind::PER_MASS) continue;
+    const double *const state = fields.state[slot], most = info.largest * (1.0 + 1.0e-9);
     const auto odd = first_particle(lmp, [&](int i) {
-      return state[i] < 0.0 && state[i] != IN_ANOTHER_COLUMN;
+      return (state[i] < 0.0 || state[i] > most) &&
+          (state[i] != IN_ANOTHER_COLUMN || info.has_column());
     });
     if (!odd.empty())
       error->all(FLERR, Error::NOLASTLINE,
-                 "Pair style {}: d_{} must be >= 0, which that of {} is not; use the set command",
-                 style, Fields::state_name(slot), odd);
+                 "Pair style {}: d_{} must be >= 0{}, which that of {} is not; use the set command",
+                 style, Fields::state_name(slot),
+                 std::isfinite(info.largest) ? fmt::format(" and <= {:g}", info.largest) : "", odd);
   }
 }
 

@@ -314,7 +314,7 @@ void Fluid::begin_forces()
   }
   remember_densities();
   if (own_list && search->update(pair->list)) timer->stamp(Timer::NEIGH);
-  if (stages.empty() || listed_bits != not_fluid()) list_stages();
+  if (stages.empty()) list_stages();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -337,7 +337,6 @@ void Fluid::list_stages()
   changed = changed || hash != model->hash_of_forces;
   model->hash_of_forces = hash;
   stages.clear();
-  listed_bits = not_fluid();
   if (!pair_energies->active()) pair_energies->forget();
 
   const Constants &par = model->constants();
@@ -345,7 +344,7 @@ void Fluid::list_stages()
              warm = par.own_temperatures, solves = kind() != Forces::REPEATED,
              stiff = viscous->active() && solves,
              stiff_heat = temperature->active() && par.conducts() && solves;
-  const int bits = boundary->bits();
+  const int bits = boundary->bits(), all_bits = not_fluid();
   NeighList *const list = pair->list;
   bool trial = false;
   int left = MOTION | TEMPERATURES;    // by the integrator
@@ -373,7 +372,7 @@ void Fluid::list_stages()
     add(par.by_rate && rates, "shear rates", VOLUMES, VISCOSITIES,
         call(*this, &Fluid::find_viscosities));
     add(par.by_rate && !rates, "kept rates", VOLUMES, VISCOSITIES,
-        call(*viscosity, &ViscosityStage::keep, listed_bits));
+        call(*viscosity, &ViscosityStage::keep, all_bits));
     add(true, "pressures", VOLUMES, PRESSURES, [this, bits](StepData &step) {
       step.nbeyond = pressure->run(bound(), bits);
     });
@@ -396,7 +395,7 @@ void Fluid::list_stages()
     add(pair_energies->active(), "tension", VOLUMES | SUMS, SUMS, [this, list](StepData &step) {
       pair_energies->run(list, step.tally);
     });
-    add(true, "forces", SUMS, FORCES, call(*forces, &ForceStage::run, listed_bits));
+    add(true, "forces", SUMS, FORCES, call(*forces, &ForceStage::run, all_bits));
     add(walls && (noisy || par.continuity), "repulsion", WALLS | FORCES, FORCES,
         [this](StepData &step) {
           boundary->repel(step.tally);
@@ -410,8 +409,8 @@ void Fluid::list_stages()
   add(noisy, "numbers", NOTHING, RANDOM, call(*noise, &NoiseStage::begin_step, bits));
   if (stiff) {
     trial = true;
-    add(true, "guess", NOTHING, MOTION, [this](StepData &) {
-      viscous->begin(listed_bits, extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
+    add(true, "guess", NOTHING, MOTION, [this, all_bits](StepData &) {
+      viscous->begin(all_bits, extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
     });
     add_passes(true);
     add(true, "velocities", SLOPES | FORCES, MOTION, call(*this, &Fluid::find_velocity));
@@ -432,11 +431,11 @@ void Fluid::list_stages()
     });
   });
   if (par.delta > 0.0 && update->whichflag != 2) {
-    add(true, "diffusion", SLOPES | PRESSURES, NOTHING, [this](StepData &) {
-      if (diffusion_is_due()) diffusion->evaluate(listed_bits, integrated);
+    add(true, "diffusion", SLOPES | PRESSURES, NOTHING, [this, all_bits](StepData &) {
+      if (diffusion_is_due()) diffusion->evaluate(all_bits, integrated);
     });
     add(true, "diffusion heat", FORCES, FORCES,
-        call(*diffusion, &DiffusionStage::add_heat, listed_bits, integrated));
+        call(*diffusion, &DiffusionStage::add_heat, all_bits, integrated));
   }
   add(zones, "ledger", SLOPES | PRESSURES, NOTHING, call(*open, &OpenStage::sum_impacts, list));
   add(viscous->active() || warm, "totals", SUMS, SUMS, call(*forces, &ForceStage::collect));

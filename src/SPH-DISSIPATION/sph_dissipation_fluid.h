@@ -278,7 +278,6 @@ namespace SPHDissipation {
       bigint calls;
     };
     std::vector<StageTime> times;    // on this processor since the last finish()
-    int listed_bits = 0;             // not_fluid() when the stages were listed
 
     void begin_forces();
     void check_setup();

@@ -86,8 +86,9 @@ namespace SPHDissipation {
     // list, whose keyword makes room; then data files have the state in the last of the N columns of the earlier channel.
     static constexpr const char *KEYWORD = nullptr;
     using Room = void;
-    static constexpr bool GHOSTS = false;        // ghosts have the state
-    static constexpr bool READS_RATE = false;    // advance() reads the rate of the temperature
+    static constexpr bool GHOSTS = false;          // ghosts have the state
+    static constexpr double LARGEST = HUGE_VAL;    // of a state per mass
+    static constexpr bool READS_RATE = false;      // advance() reads the rate of the temperature
     // Coefficient to use instead of a state whose time(type, k) is far below the time step; nullptr: none
     static constexpr const char *INSTEAD = nullptr;
 
@@ -124,6 +125,7 @@ namespace SPHDissipation {
     int first, most;    // places of its states
     int owner;          // first place of the channel whose keyword makes room
     bool ghosts;
+    double largest;
     // Return the number of states of a type with these coefficients; the time of state k (nullptr without INSTEAD)
     int (*count)(const double *coeffs);
     double (*time)(const double *coeffs, int k);
@@ -157,8 +159,8 @@ namespace SPHDissipation {
     template <class Coeffs> static std::vector<StateInfo> table()
     {
       return {{One::NAME, One::FIELD, One::KEYWORD, One::KIND, first<One>(), One::MOST,
-               first<Owner<One>>(), One::GHOSTS, count_of<One, Coeffs>, time_of<One, Coeffs>(),
-               One::INSTEAD}...};
+               first<Owner<One>>(), One::GHOSTS, One::LARGEST, count_of<One, Coeffs>,
+               time_of<One, Coeffs>(), One::INSTEAD}...};
     }
 
     // Call function(channel) for each channel; call function(channel, site) for each state of particle i

@@ -771,12 +771,15 @@ def test_changes_of_the_model(lammps, change):
 
 
 @pytest.mark.skipif(not DEVICE_LOOPS, reason="on a host the same code runs")
-def test_rate_of_shear_on_the_host(lammps):
+@pytest.mark.parametrize("law", ["power 0.6 0.01 5 yield 0.1 10", "thixotropy 1.5 2 5"])
+def test_rate_of_shear_on_the_host(lammps, law):
     """Viscosities that are not constant, with a warning."""
     particles = disordered(2, 12)
-    model = fluid(2, keywords="power 0.6 0.01 5 yield 0.1 10")
-    (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, script("sph/bulk", particles, model, 5))
+    relax.write(particles, lammps.path("room.txt"), np.full((len(particles), 1), 0.3), "sph/bulk")
+    text = script("sph/bulk", particles, fluid(2, keywords=law), 5).replace("c_F[*] ", "c_F[*] d_structure ").replace("data.txt", "room.txt")
+    (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, text.replace("atom_style sph/bulk", "atom_style sph/bulk thixotropy"))
     assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
+    assert np.abs(found["d_structure"] - expected["d_structure"]).max() < 1e-13
     assert any("not constant" in warning for warning in result.warnings)
 
 

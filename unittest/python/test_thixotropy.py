@@ -253,6 +253,12 @@ def test_numbers(lammps, words):
     assert result.code == 1 and "thixotropy must have mu1 > 0, a >= 0, b >= 0, and one of a and b > 0" in result.error
 
 
+@pytest.mark.parametrize("value", ["-1", "-0.1", "1.1"])
+def test_structure_is_between_0_and_1(lammps, value):
+    result = lammps(couette(structure=value) + "run 0\n", check=False, ranks=2)
+    assert result.code == 1 and "d_structure must be >= 0 and <= 1, which that of particle" in result.error
+
+
 @pytest.mark.parametrize("change, words", [
     (("atom_style sph/bulk thixotropy", "atom_style sph/bulk"), "use atom_style"),
     (("pair_style sph/bulk kernel quintic shear mg/fr2", "pair_style sph/bulk limit yes"), "cannot be used with limit"),
