@@ -42,7 +42,7 @@ namespace SPHDissipation {
     enum { MU1, A, B };
     static constexpr int NTYPE = 3;
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
-        {{"thixotropy", NTYPE, 0, RHEOLOGY | NO_RERUN}}};
+        {{"thixotropy", "mu1 a b", NTYPE, 0, RHEOLOGY | NO_RERUN}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"thixotropy", MU1}}};
     static constexpr const char *FIELD = "structure", *KEYWORD = "thixotropy";
     static constexpr double LARGEST = 1.0;
