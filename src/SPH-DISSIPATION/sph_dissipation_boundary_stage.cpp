@@ -196,23 +196,34 @@ void BoundaryStage::warn_of_contact()
     if (atom->mask[i] & group_bits) members.push_back(i);
   const Parameters &par = engine.parameters();
   const Cells cells(atom->x, members, par.support);
-  int touching = 0;
+  int with_contact = 0, touching = 0;
+  for (const auto one : boundaries)
+    if (one->contact()) with_contact |= one->boundary_bit();
   for (int i = 0; i < atom->nlocal && !touching; i++) {
     if (!(atom->mask[i] & body_bits)) continue;
     const double volume = engine.rows().reference_volume(i);
     cells.near(atom->x[i], CLOSE * spacing_of(par.dim, volume), [&](int j, const double *, double) {
-      if (body_of[j] != body_of[i]) touching = 1;
+      if (body_of[j] != body_of[i] && !((atom->mask[i] | atom->mask[j]) & with_contact))
+        touching = 1;
     });
   }
   warned_of_contact = over_all(world, touching, MPI_MAX);
   if (warned_of_contact && comm->me == 0)
     error->warning(FLERR,
                    "Pair style {}: a body touches another one, or a wall, in step {}: bodies have "
-                   "no contact forces, only the fluid keeps them apart",
+                   "no contact forces, only the fluid keeps them apart; use contact of fix "
+                   "sph/wall",
                    style, update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */
+
+bool BoundaryStage::has_contact() const
+{
+  return body_bits && std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
+           return one->contact() != nullptr;
+         });
+}
 
 bool BoundaryStage::is_body(int i) const
 {
