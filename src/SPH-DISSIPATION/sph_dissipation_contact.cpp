@@ -40,7 +40,7 @@ static constexpr double STIFFNESS = 4.0;
 
 // Speed, in c0, below which restitution and friction fall to zero with the speed
 
-static constexpr double SLOW = 1.0e-3;
+static constexpr double SLOW = 1.0e-4;
 
 // Reach of a tangential plane, and the length that keeps its weight finite, in spacings
 
@@ -82,6 +82,17 @@ double ContactStage::spacing(int i) const
 double ContactStage::reach(double spacing) const
 {
   return std::min(REACH * spacing, engine.constants().support - spacing);
+}
+
+// Return the part of the stiffness of the points of a body or wall: the finer one has the points.  With the same spacing, two
+// bodies have half each, and a wall none: its surface is flatter than that of a body with edges.
+
+double ContactStage::share(int body, double spacing, int other, double spacing_of_other)
+{
+  constexpr double SAME = 1.1;
+  if (spacing * SAME < spacing_of_other) return 1.0;
+  if (spacing > SAME * spacing_of_other) return 0.0;
+  return (body == 0) ? 0.0 : (other == 0) ? 1.0 : 0.5;
 }
 
 bool ContactStage::is_ball(int i) const
@@ -244,8 +255,10 @@ void ContactStage::find()
       double stiffness = HUGE_VAL;
       for (const int k : {own, one.first})
         if (k > 0) stiffness = std::min(stiffness, bodies[k - 1].stiffness);
-      pair.half_stiffness = 0.5 * stiffness * whole_power(surface[i].spacing, par.dim - 1);
-      pairs.push_back(pair);
+      const double part =
+          share(own, surface[i].spacing, one.first, surface[near[pair.first]].spacing);
+      pair.stiffness = part * stiffness * whole_power(surface[i].spacing, par.dim - 1);
+      if (part > 0.0) pairs.push_back(pair);
     }
   }
 }
@@ -361,7 +374,7 @@ void ContactStage::sum_elastic()
 {
   std::vector<double> sums(bodies.size(), 0.0);
   for (const Pair &pair : pairs) {
-    const double elastic = pair.half_stiffness * pair.overlap * MathExtra::len3(pair.normal);
+    const double elastic = pair.stiffness * pair.overlap * MathExtra::len3(pair.normal);
     for (const int k : {pair.body, pair.other})
       if (k > 0) sums[k - 1] += elastic;
   }
@@ -407,8 +420,8 @@ void ContactStage::add_forces()
   for (const Pair &pair : pairs) {
     if (!(pair.overlap > 0.0)) continue;
     const double slope = MathExtra::len3(pair.normal);
-    const double elastic = pair.half_stiffness * pair.overlap * slope;
-    total_energy += 0.5 * pair.half_stiffness * pair.overlap * pair.overlap;
+    const double elastic = pair.stiffness * pair.overlap * slope;
+    total_energy += 0.5 * pair.stiffness * pair.overlap * pair.overlap;
     if (!(slope > 0.0)) continue;
 
     double slow = HUGE_VAL, stopping = 0.0;
@@ -487,8 +500,7 @@ void ContactStage::warn()
 double ContactStage::energy(double *each_atom) const
 {
   for (const Pair &pair : pairs)
-    if (each_atom)
-      each_atom[pair.particle] += 0.5 * pair.half_stiffness * pair.overlap * pair.overlap;
+    if (each_atom) each_atom[pair.particle] += 0.5 * pair.stiffness * pair.overlap * pair.overlap;
   return total_energy;
 }
 

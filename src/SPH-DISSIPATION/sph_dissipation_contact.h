@@ -60,8 +60,7 @@ namespace SPHDissipation {
       int body, other;      // numbers of the bodies, 0: walls
       int first, number;    // of the particles in near
       ContactLaw law;
-      double
-          half_stiffness;    // of the point, half: the points of the other one have the other half
+      double stiffness;    // force on the point over the overlap
 
       // in this step
 
@@ -102,6 +101,7 @@ namespace SPHDissipation {
     double volume(int i) const;
     double spacing(int i) const;
     double reach(double spacing) const;
+    static double share(int body, double spacing, int other, double spacing_of_other);
     bool is_ball(int i) const;
     void begin();    // when a run begins: finds the bodies and the largest stable time step
     void find();
