@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 using namespace LAMMPS_NS;
@@ -859,7 +860,29 @@ void BoundaryStage::check(bool found)
   std::vector<double> part;
   find_filled(par.kernel, near, part);
   for (int i = 0; i < atom->nlocal; i++)
-    if (part[i] > INSIDE_WALL && !(atom->mask[i] & group_bits)) stop_for(i);
+    if (part[i] > INSIDE_WALL && !(atom->mask[i] & group_bits) && is_inside(i)) stop_for(i);
+}
+
+/* ----------------------------------------------------------------------
+   Return whether a particle of the fluid that boundaries surround is inside of one body, or of walls, alone.  Between a body
+   and a wall, or two bodies, it is caught in a gap.
+------------------------------------------------------------------------- */
+
+bool BoundaryStage::is_inside(int i) const
+{
+  if (!body_bits) return true;
+  std::map<int, double> part;    // by the number of the body
+  with_kernel(engine.parameters().kernel, [&](auto kernel) {
+    for (int j = 0; j < atom->nlocal + atom->nghost; j++) {
+      if (!(atom->mask[j] & group_bits)) continue;
+      const double distance = near[j].scale * sqrt(MathExtra::distsq3(atom->x[i], atom->x[j]));
+      if (distance < 1.0) part[body(j)] += near[j].norm * kernel.shape(distance);
+    }
+    return 0;
+  });
+  return std::any_of(part.begin(), part.end(), [](const auto &one) {
+    return one.second > INSIDE_WALL;
+  });
 }
 
 /* ---------------------------------------------------------------------- */

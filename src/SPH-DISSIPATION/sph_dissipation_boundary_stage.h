@@ -214,6 +214,7 @@ namespace SPHDissipation {
     void accumulate();
     void accumulate_heat();
     void check(bool found);    // for particles inside of a wall; found: the neighbor list is new
+    bool is_inside(int i) const;
   };
 
 }    // namespace SPHDissipation

@@ -298,7 +298,8 @@ void ContactStage::find_points(const Cells &cells, const std::vector<int> &owned
 }
 
 /* ----------------------------------------------------------------------
-   Find how deep a point is below the other surface.  The surface is where the mean of the distances from the planes is 0, as
+   Find how deep a point is below the other surface.  A point is at least half a spacing outside of its particle: those of
+   edges have a smaller depth.  The surface is where the mean of the distances from the planes is 0, as
    in implicit moving least squares; R. Kolluri, Proc. SODA, 1008 (2005).  The weight of a plane falls with the eighth power
    of its distance, so that planes round a corner do not matter.
 ------------------------------------------------------------------------- */
@@ -310,7 +311,7 @@ void ContactStage::find_overlap(Pair &pair) const
   const bool ball = is_ball(i);
   double r[3];
   for (int d = 0; d < 3; d++) {
-    r[d] = ball ? 0.0 : own.depth * own.normal[d];
+    r[d] = ball ? 0.0 : std::max(own.depth, 0.5 * own.spacing) * own.normal[d];
     pair.point[d] = atom->x[i][d] + r[d];
   }
 

@@ -10,6 +10,7 @@ import pytest
 
 from helpers import relative
 from test_bodies import FULL
+from test_pages import ROOT, blocks
 
 BODIES = {2: ["sphere 10 10 {z} 4.1", "sphere 25 {y} {z} 4.1"], 3: ["sphere 6 6 6 3.1", "sphere 13 {y} 6 3.1"]}
 
@@ -66,14 +67,14 @@ def test_momenta(lammps, dim, e, mu):
 def test_energy_is_of_second_order(lammps):
     """During the contact; a rough step still loses and gains little."""
     error = []
-    for step in (0.4, 0.2, 0.1):
+    for step in (0.2, 0.1, 0.05):
         table = lammps(pair(y=10.0, step=step, time=160.0).replace("thermo 50\n", "thermo 1\n")
                        .replace(f"thermo {round(20 / step)}\n", "thermo 1\n")).thermo()[-1]
         energy = table["c_K"] + table["PotEng"]
         assert table["PotEng"].max() - table["PotEng"][0] > 0.2 * table["c_K"][0]
         error.append(np.abs(energy / energy[0] - 1.0).max())
     print(error)
-    assert error[0] > 3.0 * error[1] > 9.0 * error[2] and error[2] < 2e-3
+    assert error[0] > 3.0 * error[1] > 9.0 * error[2] and error[2] < 5e-4
 
 
 @pytest.mark.parametrize("e", [0.25, 0.5, 0.8])
@@ -178,11 +179,10 @@ def test_movers(lammps, options, rigid):
 
 @pytest.mark.parametrize("viscous", ["", "viscous rkl2", "viscous implicit"])
 def test_stone_in_water(lammps, viscous):
-    """The first second of the input of the manual's page, with all ways of friction: the stone lies on the floor."""
-    from test_pages import ROOT, blocks
+    """The input of the manual, with a stone near the floor, and all ways of friction: the stone lies on the floor."""
     (text,) = [code for _, _, code, _ in blocks(ROOT / "doc/src/Howto_sph_bodies.rst") if "A stone sinks" in code]
     text = re.sub(r"fix\s+1 water sph/bulk", f"fix 1 water sph/bulk {viscous}", text).replace("sphere 20 11 0 3.1", "sphere 20 5 0 3.1")
-    result = lammps(text.replace("run             8000", "run             1500"), ranks=2)
+    result = lammps(text.replace("run             8000", "run             2000"), ranks=2)
     table = result.thermo()[-1]
     assert -0.1 < table["v_gap"][-1] < 0.0 and abs(table["v_v"][-1]) < 0.05
     assert "largest stable time step of the contact of bodies" in result.log and "WARNING" not in result.log
@@ -225,3 +225,14 @@ def test_errors(lammps, contact, options, words):
 def test_contact_without_bodies(lammps):
     result = lammps(floor(wall="contact 0.5 0.3"), check=False)
     assert result.code and "contact requires move rigid" in result.error
+
+
+def test_particle_in_a_gap(lammps):
+    """A heavy, soft stone catches particles between itself and the floor: they are in no wall; inside of the stone, they are."""
+    (text,) = [code for _, _, code, _ in blocks(ROOT / "doc/src/Howto_sph_bodies.rst") if "A stone sinks" in code]
+    text = text.replace("mass 2.0", "mass 8.0").replace("2 2 2.0 40.0", "2 2 8.0 14.1").replace("run             8000", "run             2500")
+    assert -0.1 < lammps(text, ranks=2).thermo()[-1]["v_gap"][-1] < 0.1
+    inside = text.replace("set             region stone", "group stone region stone\nset             region stone")
+    inside = inside.replace("group           stone type 2", "create_atoms    1 single 20.3 11.2 0.0\nset             group all mass 1.0\nset type 2 mass 8.0")
+    result = lammps(inside, check=False)
+    assert result.code and "is inside a wall" in result.error
