@@ -15,7 +15,7 @@ from test_pages import ROOT, blocks
 BODIES = {2: ["sphere 10 10 {z} 4.1", "sphere 25 {y} {z} 4.1"], 3: ["sphere 6 6 6 3.1", "sphere 13 {y} 6 3.1"]}
 
 
-def pair(dim=2, e=1.0, mu=0.0, y=13.3, speed=0.05, across=0.002, step=0.05, time=160.0, rigid="rigid/small molecule", coarse=1.0, extra="", contact=None, options="density continuity"):
+def pair(dim=2, e=1.0, mu=0.0, y=13.3, speed=0.05, across=0.002, step=0.1, time=160.0, rigid="rigid/small molecule", coarse=1.0, extra="", contact=None, options="density continuity"):
     """Two bodies, one twice as dense, that hit each other; a few particles of fluid far away."""
     box = "0 36 0 24 -0.5 0.5" if dim == 2 else "0 20 0 14 0 14"
     one, two = (text.format(y=y, z=0) for text in BODIES[dim])
@@ -48,14 +48,14 @@ def test_momenta(lammps, dim, e, mu):
     """Momentum, angular momentum, energy; any number of ranks."""
     found = []
     for ranks in (1, 2, 4) if dim == 2 and mu else (2,):
-        table = lammps(pair(dim, e, mu, y=13.3 if dim == 2 else 7.5, time=200.0 if dim == 2 else 60.0), ranks=ranks).thermo()[-1]
+        table = lammps(pair(dim, e, mu, y=13.3 if dim == 2 else 7.5, time=200.0 if dim == 2 else 60.0, step=0.05 if e == 1.0 else 0.1), ranks=ranks).thermo()[-1]
         found.append([table[name][-1] for name in ("c_K", "v_v", "v_w", "c_E")])
         assert abs(table["v_w"][-1]) > 0.005
         for name in ("v_P", "v_Q"):
             assert np.ptp(table[name]) < 1e-13 * table["v_P"][0]
         for k in (1, 2, 3):
             assert np.ptp(table[f"c_L[{k}]"]) < 1e-12 * np.abs(table["c_L[3]"]).max()
-        assert relative(np.ptp(table["c_E"]), table["c_E"][0]) < 1e-4
+        assert relative(np.ptp(table["c_E"]), table["c_E"][0]) < 2e-4
         if e == 1.0:
             assert abs(table["c_K"][-1] / table["c_K"][0] - 1.0) < 5e-5
         else:
@@ -77,16 +77,24 @@ def test_energy_is_of_second_order(lammps):
     assert error[0] > 3.0 * error[1] > 9.0 * error[2] and error[2] < 5e-4
 
 
-@pytest.mark.parametrize("e", [0.25, 0.5, 0.8])
-def test_restitution(lammps, e):
+@pytest.mark.parametrize("e, found", [(0.25, 0.255), (0.5, 0.501), (0.8, 0.800)])
+def test_restitution(lammps, e, found):
     table = lammps(pair(e=e, y=10.0, across=0.0, step=0.1)).thermo()[-1]
-    assert (table["v_w"][-1] - table["v_v"][-1]) / 0.05 == pytest.approx(e, abs=0.006)
+    assert (table["v_w"][-1] - table["v_v"][-1]) / 0.05 == pytest.approx(found, abs=0.001)
+
+
+def test_warning_without_contact(lammps):
+    """Bodies without contact pass through each other; the first touch is a warning."""
+    result = lammps(pair(contact="", y=10.0))
+    assert result.thermo()[-1]["v_w"][-1] == 0.0
+    (line,) = [line for line in result.warnings if "a body touches another one" in line]
+    assert "use contact of fix sph/wall" in line
 
 
 @pytest.mark.parametrize("coarse", [0.5, 0.8, 1.5])
 def test_other_spacing(lammps, coarse):
     """A body of another spacing: energy and momentum are exact; coarse discs are rough, and turn."""
-    table = lammps(pair(y=10.0, across=0.0, coarse=coarse)).thermo()[-1]
+    table = lammps(pair(y=10.0, across=0.0, coarse=coarse, step=0.05)).thermo()[-1]
     assert kept_energy(table) == pytest.approx(1.0, abs=1e-4)
     result = lammps(pair(e=0.5, y=10.0, across=0.0, coarse=coarse))
     table = result.thermo()[-1]
@@ -215,8 +223,8 @@ def test_pile(lammps, e, mu):
 
 @pytest.mark.parametrize("contact, options, words", [
     ("contact 1.5 0.0", "", "contact must be between 0 and 1, not 1.5"), ("contact 0.5 -0.1", "", "the coefficient of friction must be >= 0, not -0.1"),
-    ("contact 0.5", "", "contact"), ("contact 0.5 0.0", "temp 1e-5 7", "contact cannot be used with temp"),
-    ("contact 1.0 0.1", "temp 1e-5 7", "contact cannot be used with temp")])
+    ("contact 0.5", "", "contact"), ("contact 0.5 0.0", "temp 1e-5 7", "the restitution must be 1 and the friction 0"),
+    ("contact 1.0 0.1", "temp 1e-5 7", "the restitution must be 1 and the friction 0")])
 def test_errors(lammps, contact, options, words):
     result = lammps(pair(contact=contact, options=options), check=False, ranks=2)
     assert result.code and words in result.error

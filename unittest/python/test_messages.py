@@ -136,7 +136,6 @@ REFUSALS = {
                                 "*temp energy*", "*eos ideal*", "*gruneisen*", "vortex viscosity", "*interdrag*", LAWS, "*fix sph/open*", "*fix sph/torque*",
                                 "*velocity*", "*rotate*", "*slip*", "*spin*"]),
         (RHEOLOGY, LAWS, "*move rigid*"), (OPEN, "*fix sph/open*", "*move rigid*"), (PAIR, "*interdrag*", "*move rigid*"), (NOISE, "*temp energy*", "*move rigid*")],
-    "Fix {} contact cannot be used with temp of the pair style": [(WALL, "With *temp*", "*e* must be 1 and *mu* 0")],
     "Fix {} {} move rigid cannot be used with the thermostat": [(WALL, "*move rigid*", "thermostats")],
     "Pair style {} {} cannot be used with rerun": [(PAIR, "Rerun", ["*eos ideal*", "*temp energy*"]), (NOISE, "*temp energy*", "rerun")],
     "Pair style {} with {} of type {} cannot be used with rerun": [
