@@ -54,7 +54,7 @@ class Run:
 
 def plot(path, run):
     plt = pyplot()
-    figure, axes = plt.subplots(1, len(TIMES), figsize=(10.0, 4.2))
+    figure, axes = plt.subplots(1, len(TIMES), figsize=(10.0, 3.6))
     for axis, time in zip(axes, TIMES):
         frame = run.frames[round(time / EVERY)]
         for kind, color in ((1, "C0"), (2, "0.6")):
@@ -77,10 +77,10 @@ def main():
         mean = -run.force[-round(REST / 0.1):].mean() / run.weight
         one, two = np.min(run.closest, axis=0)
         print(f"{name:8s}  {mean:33.4f}   {run.speed():19.4f}   {one:38.3f}   {two:14.3f}")
-        example.merit(f"{name}: least distance of particles of two stones, in spacings", one, 0.75, 1.1)
-        example.merit(f"{name}: least distance of stones and tank, in spacings", two, 0.75, 1.1)
+        example.merit(f"{name}: least distance of particles of two stones, in spacings", one, 0.9, 1.1)
+        example.merit(f"{name}: least distance of stones and tank, in spacings", two, 0.9, 1.1)
         if not args.quick:
-            example.merit(f"{name}: mean force on the tank over the weight", mean, 0.98, 1.02)
+            example.merit(f"{name}: mean force on the tank over the weight", mean, 0.99, 1.01)
     if args.quick:
         return example.finish()
     picture = example.out / "stones.png"

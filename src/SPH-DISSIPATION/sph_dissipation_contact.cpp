@@ -46,6 +46,10 @@ static constexpr double SLOW = 1.0e-4;
 
 static constexpr double REACH = 1.5, SOFT = 0.5;
 
+// Depth of a particle below its plane, in spacings, below which it is one of an edge
+
+static constexpr double FLAT = 0.4;
+
 static constexpr int NROWS = 7;    // force, torque, heat of a body
 
 /* ----------------------------------------------------------------------
@@ -77,14 +81,14 @@ double ContactStage::spacing(int i) const
   return spacing_of(engine.constants().dim, volume(i));
 }
 
-// ghosts reach as far as the support: the planes are looked for from a point, one spacing closer
+// ghosts reach as far as the support: so a plane acts on a ball that is a spacing nearer
 
 double ContactStage::reach(double spacing) const
 {
   return std::min(REACH * spacing, engine.constants().support - spacing);
 }
 
-// Return the part of the stiffness of the points of a body or wall: the finer one has the points.  With the same spacing, two
+// Return the part of the stiffness of the balls of a body or wall: the finer one has the balls.  With the same spacing, two
 // bodies have half each, and a wall none: its surface is flatter than that of a body with edges.
 
 double ContactStage::share(int body, double spacing, int other, double spacing_of_other)
@@ -188,7 +192,7 @@ void ContactStage::run()
 }
 
 /* ----------------------------------------------------------------------
-   With a new neighbor list, find the points that may come below another surface before the next list, and the particles of
+   With a new neighbor list, find the balls that may come below another surface before the next list, and the particles of
    that surface around them.
 ------------------------------------------------------------------------- */
 
@@ -207,7 +211,7 @@ void ContactStage::find()
     widest = std::max(widest, spacing(i));
   }
 
-  // owned particles that may be a point, or a plane for a point
+  // owned particles that may be a ball, or a plane for a ball
 
   const auto range = [&](int i, int j) {
     const double a = spacing(i), b = spacing(j);
@@ -231,7 +235,7 @@ void ContactStage::find()
   active = over_all<int>(world, !owned.empty(), MPI_MAX);
   if (!active) return surface.clear();
 
-  find_points(of_all, owned);
+  find_surfaces(of_all, owned);
   for (auto one : boundary.all()) one->move_surface(boundary, surface.data(), false);
   std::map<int, std::vector<int>> of_body;
   for (const int i : owned) {
@@ -264,11 +268,11 @@ void ContactStage::find()
 }
 
 /* ----------------------------------------------------------------------
-   Find normals and depths of the outer layers, on all sides.  All walls together are one arrangement.  A particle without
-   normal, as that of a thin plate, is a ball.
+   Find normals and depths of the outer layers, on all sides.  All walls together are one arrangement.  A particle at an edge
+   or a corner, or one without normal, as that of a thin plate, is a ball.
 ------------------------------------------------------------------------- */
 
-void ContactStage::find_points(const Cells &cells, const std::vector<int> &owned)
+void ContactStage::find_surfaces(const Cells &cells, const std::vector<int> &owned)
 {
   const Parameters &par = engine.parameters();
   const int nall = atom->nlocal + atom->nghost;
@@ -283,9 +287,10 @@ void ContactStage::find_points(const Cells &cells, const std::vector<int> &owned
     });
     domain->unmap(atom->x[i], atom->image[i], &shift[3 * i]);
     if (!plane.outer) continue;
+    const bool flat = plane.directed && plane.depth > FLAT * own;
     s.spacing = own;
-    s.depth = plane.directed ? plane.depth : 0.5 * own;
-    for (int d = 0; d < 3 && plane.directed; d++) s.normal[d] = -plane.inward[d] / plane.length;
+    s.depth = flat ? plane.depth : 0.5 * own;
+    for (int d = 0; d < 3 && flat; d++) s.normal[d] = -plane.inward[d] / plane.length;
   }
   Surface *const first = surface.data();
   exchange.forward({field(first, first->normal, 3),
@@ -298,72 +303,79 @@ void ContactStage::find_points(const Cells &cells, const std::vector<int> &owned
 }
 
 /* ----------------------------------------------------------------------
-   Find how deep a point is below the other surface.  A point is at least half a spacing outside of its particle: those of
-   edges have a smaller depth.  The surface is where the mean of the distances from the planes is 0, as
-   in implicit moving least squares; R. Kolluri, Proc. SODA, 1008 (2005).  The weight of a plane falls with the eighth power
-   of its distance, so that planes round a corner do not matter.
+   Find how deep a particle, a ball with the diameter of a spacing, is below the other surface.  The distance from the surface
+   is the mean of the distances from its planes and balls, as in implicit moving least squares; R. Kolluri, Proc. SODA, 1008
+   (2005).  The weight falls with the eighth power of the distance, so that planes round a corner do not matter.
 ------------------------------------------------------------------------- */
 
 void ContactStage::find_overlap(Pair &pair) const
 {
   const int i = pair.particle;
-  const Surface &own = surface[i];
-  const bool ball = is_ball(i);
-  double r[3];
-  for (int d = 0; d < 3; d++) {
-    r[d] = ball ? 0.0 : std::max(own.depth, 0.5 * own.spacing) * own.normal[d];
-    pair.point[d] = atom->x[i][d] + r[d];
-  }
-
+  const double *const place = atom->x[i], ball = 0.5 * surface[i].spacing;
   double weights = 0.0, distance = 0.0, closest = HUGE_VAL;
-  double slope[3] = {}, turn[3] = {}, along[3] = {}, u[3] = {};    // sums
-  pair.partner = -1;
+  double slope[3] = {}, turn[3] = {}, along[3] = {};    // sums
+  pair.overlap = 0.0;
   for (int m = pair.first; m < pair.first + pair.number; m++) {
     const int j = near[m];
     const Surface &plane = surface[j];
     const double radius = reach(plane.spacing), soft = SOFT * plane.spacing;
-    double from[3], q[3];
-    for (int d = 0; d < 3; d++) {
-      from[d] = pair.point[d] - atom->x[j][d];
-      q[d] = from[d] - plane.depth * plane.normal[d];
+    double normal[3], q[3],
+        above;    // q: from the point of the plane, or the nearest one of the ball
+    MathExtra::sub3(place, atom->x[j], q);
+    if (is_ball(j)) {
+      const double length = MathExtra::len3(q);
+      above = length - plane.depth;
+      for (int d = 0; d < 3; d++) {
+        normal[d] = (length > 0.0) ? q[d] / length : 0.0;
+        q[d] = above * normal[d];
+      }
+    } else {
+      std::copy_n(plane.normal, 3, normal);
+      for (int d = 0; d < 3; d++) q[d] -= plane.depth * normal[d];
+      above = MathExtra::dot3(normal, q);
     }
     const double rsq = MathExtra::lensq3(q), left = radius * radius - rsq;
     if (!(left > 0.0)) continue;
     const double part = left / (radius * radius), inverse = soft * soft / (rsq + soft * soft);
     const double weight = part * part * part * inverse * inverse * inverse * inverse;
     const double change = -6.0 / left - 8.0 / (rsq + soft * soft);    // of the logarithm, along q
-    double normal[3] = {plane.normal[0], plane.normal[1], plane.normal[2]}, above;
-    if (is_ball(j)) {
-      const double length = sqrt(rsq);
-      above = length - plane.depth;
-      for (int d = 0; d < 3; d++) normal[d] = (length > 0.0) ? q[d] / length : 0.0;
-    } else
-      above = MathExtra::dot3(plane.normal, q);
-    double rotation[3];
-    cross_product(plane.omega, from, rotation);
     weights += weight;
     distance += weight * above;
     for (int d = 0; d < 3; d++) {
       slope[d] += weight * normal[d];
       turn[d] += weight * change * q[d];
       along[d] += weight * change * q[d] * above;
-      u[d] += weight * (atom->vest[j][d] + rotation[d]);
     }
     if (rsq >= closest) continue;
     closest = rsq;
     pair.partner = j;
   }
-  pair.overlap = 0.0;
   if (!(weights > 0.0)) return;
   const double mean = distance / weights;
-  pair.overlap = std::max((ball ? own.depth : 0.0) - mean, 0.0);
+  pair.overlap = std::max(ball - mean, 0.0);
   if (pair.overlap == 0.0) return;
-  double rotation[3];
-  cross_product(own.omega, r, rotation);
+  for (int d = 0; d < 3; d++) pair.normal[d] = (slope[d] + along[d] - mean * turn[d]) / weights;
+  pair.slope = MathExtra::len3(pair.normal);
   for (int d = 0; d < 3; d++) {
-    pair.normal[d] = (slope[d] + along[d] - mean * turn[d]) / weights;
-    pair.u[d] = atom->vest[i][d] + rotation[d] - u[d] / weights;
+    if (pair.slope > 0.0) pair.normal[d] /= pair.slope;
+    pair.point[d] = place[d] - ball * pair.normal[d];
   }
+  double other[3];
+  velocity_at(pair.point, i, pair.u);
+  velocity_at(pair.point, pair.partner, other);
+  MathExtra::sub3(pair.u, other, pair.u);
+}
+
+/* ----------------------------------------------------------------------
+   Find the velocity, at a point, of the body or wall of a particle.
+------------------------------------------------------------------------- */
+
+void ContactStage::velocity_at(const double *point, int i, double *u) const
+{
+  double r[3];
+  MathExtra::sub3(point, atom->x[i], r);
+  cross_product(surface[i].omega, r, u);
+  for (int d = 0; d < 3; d++) u[d] += atom->vest[i][d];
 }
 
 /* ----------------------------------------------------------------------
@@ -375,7 +387,7 @@ void ContactStage::sum_elastic()
 {
   std::vector<double> sums(bodies.size(), 0.0);
   for (const Pair &pair : pairs) {
-    const double elastic = pair.stiffness * pair.overlap * MathExtra::len3(pair.normal);
+    const double elastic = pair.stiffness * pair.overlap * pair.slope;
     for (const int k : {pair.body, pair.other})
       if (k > 0) sums[k - 1] += elastic;
   }
@@ -385,7 +397,7 @@ void ContactStage::sum_elastic()
 }
 
 /* ----------------------------------------------------------------------
-   Add the forces.  While a point leaves, its elastic force has the factor e^2, with the restitution e: then a contact gives
+   Add the forces.  While a ball leaves, its elastic force has the factor e^2, with the restitution e: then a contact gives
    back the part e^2 of the energy that it has taken, whatever the masses and the shape of the contact.  Between slow speeds
    of approach and departure the factor is linear.
 ------------------------------------------------------------------------- */
@@ -420,10 +432,8 @@ void ContactStage::add_forces()
 
   for (const Pair &pair : pairs) {
     if (!(pair.overlap > 0.0)) continue;
-    const double slope = MathExtra::len3(pair.normal);
-    const double elastic = pair.stiffness * pair.overlap * slope;
+    const double elastic = pair.stiffness * pair.overlap * pair.slope;
     total_energy += 0.5 * pair.stiffness * pair.overlap * pair.overlap;
-    if (!(slope > 0.0)) continue;
 
     double slow = HUGE_VAL, stopping = 0.0;
     int nmoving = 0;
@@ -434,8 +444,7 @@ void ContactStage::add_forces()
       stopping += dt * body.force * body.mobility;
       nmoving++;
     }
-    const double normal[3] = {pair.normal[0] / slope, pair.normal[1] / slope,
-                              pair.normal[2] / slope};
+    const double *const normal = pair.normal;
     const double leaving = MathExtra::dot3(normal, pair.u);
     const double lost = 0.5 * (1.0 - pair.law.restitution * pair.law.restitution);
     const double speed = std::max(-1.0, std::min(1.0, leaving / (slow + lost * stopping)));
@@ -477,7 +486,7 @@ void ContactStage::add_forces()
 }
 
 /* ----------------------------------------------------------------------
-   Warn once of a deep overlap, at the start of a run or of a list: the points of one body may already be inside of another.
+   Warn once of a deep overlap, at the start of a run or of a list: the balls of one body may already be inside of another.
 ------------------------------------------------------------------------- */
 
 void ContactStage::warn()

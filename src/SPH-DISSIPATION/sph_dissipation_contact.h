@@ -28,9 +28,9 @@ namespace SPHDissipation {
   class BoundaryStage;
   class Cells;
 
-  // Forces between bodies that touch each other or a wall.  The particles of the outer layer have points on the surface; the
-  // surface around a point of another body is a mean of tangential planes.  The force on a point below this surface acts at
-  // the point, on both bodies; its energy depends on the places of the bodies alone.
+  // Forces between bodies that touch each other or a wall.  The particles of the outer layer are balls; the surface of
+  // another body is a mean of tangential planes.  The force on a ball below this surface acts at one point on both bodies;
+  // its energy depends on the places of the bodies alone.
 
   class ContactStage : public Stage {
    public:
@@ -53,21 +53,22 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    // A point on the surface of one body or wall, and the particles of another one near it
+    // A ball of one body or wall, and the particles of another one near it
 
     struct Pair {
-      int particle;         // with the point
+      int particle;         // the ball
       int body, other;      // numbers of the bodies, 0: walls
       int first, number;    // of the particles in near
       ContactLaw law;
-      double stiffness;    // force on the point over the overlap
+      double stiffness;    // force over the overlap
 
       // in this step
 
-      double point[3], normal[3];    // normal: of the other one, times the slope of the distance
+      double point[3], normal[3];    // of the contact; outward of the other one
       double overlap;
-      double u[3];    // velocity of the point relative to the other one
-      int partner;    // nearest particle of the other one
+      double slope;    // of the distance from the other one, 1 at a plane
+      double u[3];     // velocity of the point relative to the other one
+      int partner;     // nearest particle of the other one
     };
 
     // A body that the fluid moves
@@ -86,7 +87,7 @@ namespace SPHDissipation {
     BoundaryStage &boundary;
     const std::string style;
     std::vector<Body> bodies;        // by their number less 1
-    std::vector<Surface> surface;    // by owned and ghost atom; spacing 0: no point
+    std::vector<Surface> surface;    // by owned and ghost atom; spacing 0: not of the outer layer
     std::vector<double>
         shift;    // from the place of a particle to the place in its body, not wrapped; three numbers
     std::vector<Pair> pairs;
@@ -106,9 +107,10 @@ namespace SPHDissipation {
     void begin();    // when a run begins: finds the bodies and the largest stable time step
     void find();
     void find_bodies();
-    void find_points(const Cells &, const std::vector<int> &);
+    void find_surfaces(const Cells &, const std::vector<int> &);
     void find_overlaps();
     void find_overlap(Pair &) const;
+    void velocity_at(const double *point, int i, double *u) const;
     void sum_elastic();
     void add_forces();
     void warn();
