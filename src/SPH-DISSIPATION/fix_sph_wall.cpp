@@ -97,7 +97,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     if (key.is("contact", "e mu")) {
       law.reset(new ContactLaw{key.number(0), key.number(1)});
       key.demand(law->restitution >= 0.0 && law->restitution <= 1.0, "between 0 and 1");
-      if (!(law->friction >= 0.0 && std::isfinite(law->friction)))
+      if (law->friction < 0.0)
         error->all(FLERR, "Fix {} contact: the coefficient of friction must be >= 0, not {}", style,
                    key.word(1));
     }
