@@ -17,7 +17,7 @@ sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, frames, pyplot, save      # noqa: E402
 
 JOBS = {"stones": {"n": 20}, "sticky": {"n": 20, "e": 0.1, "mu": 1.0}}
-QUICK = {"stones": {"n": 20, "end": 2.0}}
+QUICK = {"stones": {"n": 20, "end": 5.0}}
 EVERY = 0.5                 # time between two frames
 AREA = 2.0                  # of the water; the tank is 2 wide
 REST = 4.0                  # last time units, of the mean force
