@@ -14,7 +14,7 @@ from contextlib import contextmanager
 from . import fluids    # noqa: F401
 from .figures import STYLE, pyplot, save    # noqa: F401
 from .means import flow_means, period_means    # noqa: F401
-from .results import averages, each_average, each_frame, exponents, frames, progress, read_array, read_grid, thermo    # noqa: F401
+from .results import averages, each_average, each_frame, exponents, frames, progress, read_array, read_grid, series, thermo    # noqa: F401
 
 
 @contextmanager

@@ -131,7 +131,7 @@ def each_average(path):
             rows.append(words)
         elif words:
             if names is None or len(words) < 2 or not re.fullmatch("[0-9]+", words[0] + words[1]):
-                raise ValueError(f"{path} has no output of fix ave/chunk, nor of fix ave/time with mode vector")
+                raise ValueError(f"{path} has no output of fix ave/chunk, nor of fix ave/time with mode vector; series() reads that of scalars")
             step, count, rows = int(words[0]), int(words[1]), []
         if comment:
             names = after.split()    # the last such line has those of the rows
@@ -139,7 +139,7 @@ def each_average(path):
             yield step, columns(names, rows)
             step = None
     if names is None:
-        raise ValueError(f"{path} has no output of fix ave/chunk, nor of fix ave/time with mode vector")
+        raise ValueError(f"{path} has no output of fix ave/chunk, nor of fix ave/time with mode vector; series() reads that of scalars")
     if step is not None:
         cut(path, step)
 
@@ -147,6 +147,33 @@ def each_average(path):
 def averages(path):
     """The outputs of fix ave/chunk, or of fix ave/time with mode vector: {step: {column: values}}."""
     return dict(each_average(path))
+
+
+def series(path):
+    """The output of fix ave/time of scalars, such as gauges: {column: values}, with the steps in the first column.
+    The names are those of the last line of comments; LAMMPS repeats them where a run appends."""
+    names, rows, nothing = None, [], ValueError(f"{path} has no output of fix ave/time of scalars")
+    for line in lines_of(path):
+        before, comment, after = line.partition("#")
+        words = before.split()
+        if comment:
+            if "Number-of-" in after:
+                raise ValueError(f"{path} has vectors or chunks, which averages() reads")
+            if rows and after.split()[:1] == names[:1] and after.split() != names:
+                raise ValueError(f"{path} has two outputs with different columns")
+            if not rows:
+                names = after.split()
+        if not words:
+            continue
+        if names is None or not re.fullmatch("[0-9]+", words[0]) or any(map(is_text, words)):
+            raise nothing
+        if comment or len(words) != len(names) or not line.endswith("\n"):
+            cut(path, words[0])
+        else:
+            rows.append(words)
+    if not rows:
+        raise nothing
+    return columns(names, rows)
 
 
 def read_array(path):

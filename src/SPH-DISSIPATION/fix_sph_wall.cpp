@@ -32,6 +32,7 @@
 #include "sph_dissipation_bodies.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_contact.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
@@ -93,6 +94,13 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       split_given = true;
       by_molecule = (key.choice({"single", "molecule"}) == 1);
     }
+    if (key.is("contact", "e mu")) {
+      law.reset(new ContactLaw{key.number(0), key.number(1)});
+      key.demand(law->restitution >= 0.0 && law->restitution <= 1.0, "between 0 and 1");
+      if (law->friction < 0.0)
+        error->all(FLERR, "Fix {} contact: the coefficient of friction must be >= 0, not {}", style,
+                   key.word(1));
+    }
     if (key.is("slip")) condition->slip = (key.choice({"no", "free"}) == 1);
     if (key.is("spin")) {
       condition->spin = static_cast<WallSpin>(key.choice({"zero", "rate", "free"}));
@@ -123,6 +131,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
 
   if (split_given && !bodies) error->all(FLERR, "Fix {} body requires move rigid", style);
+  if (law && !bodies) error->all(FLERR, "Fix {} contact requires move rigid", style);
   if (bodies) read_bodies(others);
 
   time_integrate = bodies ? 0 : 1;
@@ -554,7 +563,25 @@ void FixSPHWall::post_force(int /*vflag*/)
       total[3 + d] += moment[d] + one[3 + d];
     }
   }
+  if (!bodies) add_contact();
   book_heat();
+}
+
+/* ----------------------------------------------------------------------
+   Add force and torque of the bodies that touch the wall, which no single particle of the wall has.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::add_contact()
+{
+  const Fluid *const fluid = find_fluid(force);
+  if (comm->me != 0 || !fluid->boundary->has_contact()) return;
+  double pushed[6], moment[3];
+  fluid->contact->force_on(this, pushed);
+  cross_product(motion->velocity().point, pushed, moment);
+  for (int d = 0; d < 3; d++) {
+    total[d] += pushed[d];
+    total[3 + d] += pushed[3 + d] - moment[d];
+  }
 }
 
 /* ----------------------------------------------------------------------

@@ -34,6 +34,7 @@ namespace SPHDissipation {
   class Fluid;
   class Value;
   class WallMotion;
+  struct ContactLaw;
   struct WallCondition;
   enum class WallHeat;
   struct WallVelocity;
@@ -80,6 +81,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool has_mean_pressure() const override { return !bodies && !noise; }
   int number_bodies(int, double *) override;
   SPHDissipation::RigidMotions *rigid_motions() override;
+  const SPHDissipation::ContactLaw *contact() const override { return law.get(); }
   bool gives_heat() const override;
   void set_heat(SPHDissipation::BoundaryStage &, const SPHDissipation::Surface *, bool) override;
 
@@ -88,8 +90,9 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
       motion;    // of the wall; the torque is about the point on its axis
   const std::unique_ptr<SPHDissipation::WallCondition> condition;
   bool move = true;
-  std::unique_ptr<SPHDissipation::Bodies> bodies;    // which the fluid moves; nullptr: a wall
-  bool noise = false;                                // the fluid has thermal noise
+  std::unique_ptr<SPHDissipation::Bodies> bodies;     // which the fluid moves; nullptr: a wall
+  std::unique_ptr<SPHDissipation::ContactLaw> law;    // of the contact of bodies; nullptr: none
+  bool noise = false;                                 // the fluid has thermal noise
   bool checked = false;    // setup() has run, and has checked the thickness
 
   double total[6] = {}, total_all[6] = {};    // force and torque, of this rank and of all
@@ -125,6 +128,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void set_acting();
   void note_forces();
   void add_rest_of_heat();
+  void add_contact();
 
   bool is_wrong(double value) const;    // not admissible for keyword heat
   void check_heat() const;

@@ -151,6 +151,12 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
          "eos ideal or gruneisen: the pressure of a body does not follow the heat of the fluid");
   refuse(fluid->model->constants().optional, "vortex viscosity or interdrag of the fluid");
   refuse(fluid->model->has_rheology(), "viscosities that are not constant");
+  if (law && choice.thermal && (law->restitution < 1.0 || law->friction > 0.0))
+    error->all(
+        FLERR,
+        "Fix {} contact: with temp of the pair style, the restitution must be 1 and the friction "
+        "0: a contact that dissipates has no noise in balance with it",
+        style);
   refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
   refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");
 }

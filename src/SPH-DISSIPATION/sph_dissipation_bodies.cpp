@@ -422,6 +422,27 @@ void Bodies::act(const double *rows)
 
 /* ---------------------------------------------------------------------- */
 
+double Bodies::least_moment(int k) const
+{
+  double least = 0.0;
+  for (const double moment : bodies[k].moment)
+    if (moment > 0.0 && !(least > 0.0 && least < moment)) least = moment;
+  return least;
+}
+
+void Bodies::accelerate(const double *forces,
+                        const std::function<void(int, const double *)> &function) const
+{
+  std::vector<double> rows(WIDTH * bodies.size());
+  for (int k = 0; k < size(); k++) {
+    for (int d = 0; d < 3; d++) rows[WIDTH * k + d] = forces[WIDTH * k + d] / bodies[k].mass;
+    turn_along(bodies[k], forces + WIDTH * k + 3, &rows[WIDTH * k + 3]);
+  }
+  velocities(rows.data(), function);    // a field of accelerations is one of velocities
+}
+
+/* ---------------------------------------------------------------------- */
+
 void Bodies::check(double **velocity) const
 {
   constexpr double MOST = 1.0e-8;

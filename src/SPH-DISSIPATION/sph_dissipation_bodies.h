@@ -77,6 +77,11 @@ namespace SPHDissipation {
                     const std::function<void(int, const double *)> &) const override;
     void add_forces(const std::function<const double *(int)> &, double *) const override;
     void act(const double *) override;
+    double mass(int k) const override { return bodies[k].mass; }
+    const double *center(int k) const override { return bodies[k].x; }
+    double least_moment(int k) const override;
+    void accelerate(const double *,
+                    const std::function<void(int, const double *)> &) const override;
 
     // Motion at the end of the last step in restart files: the name of each body and six numbers for its velocity
     static constexpr int NRESTART = 7;

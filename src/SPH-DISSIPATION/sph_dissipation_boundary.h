@@ -50,8 +50,23 @@ namespace SPHDissipation {
 
     virtual void act(const double *rows) = 0;    // rows = velocities on which the forces depend
 
+    // Body k: mass, center of mass, and least moment of inertia, 0 without any
+    virtual double mass(int k) const = 0;
+    virtual const double *center(int k) const = 0;
+    virtual double least_moment(int k) const = 0;
+
+    // Call function(i, acceleration) for each owned particle, by force and torque, along x, y, z, on each body
+    virtual void accelerate(const double *forces,
+                            const std::function<void(int, const double *)> &) const = 0;
+
    protected:
     ~RigidMotions() = default;
+  };
+
+  // Dry contact of a body with another one or with a wall: coefficients of restitution and of friction
+
+  struct ContactLaw {
+    double restitution = 1.0, friction = 0.0;
   };
 
   // Interface of a fix whose particles are a wall or a body at the edge of the fluid, for the work between the two passes of
@@ -83,6 +98,7 @@ namespace SPHDissipation {
     virtual bool has_bodies() const { return false; }
     virtual int number_bodies(int first, double * /*body*/) { return first; }
     virtual RigidMotions *rigid_motions() { return nullptr; }
+    virtual const ContactLaw *contact() const { return nullptr; }    // of the bodies; nullptr: none
 
     // Return true if the boundary has the mean pressure of the fluid, bulk viscosity included: friction is not symmetric
     virtual bool has_mean_pressure() const { return true; }

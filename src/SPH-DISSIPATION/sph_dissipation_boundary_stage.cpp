@@ -27,6 +27,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 using namespace LAMMPS_NS;
@@ -196,23 +197,34 @@ void BoundaryStage::warn_of_contact()
     if (atom->mask[i] & group_bits) members.push_back(i);
   const Parameters &par = engine.parameters();
   const Cells cells(atom->x, members, par.support);
-  int touching = 0;
+  int with_contact = 0, touching = 0;
+  for (const auto one : boundaries)
+    if (one->contact()) with_contact |= one->boundary_bit();
   for (int i = 0; i < atom->nlocal && !touching; i++) {
     if (!(atom->mask[i] & body_bits)) continue;
     const double volume = engine.rows().reference_volume(i);
     cells.near(atom->x[i], CLOSE * spacing_of(par.dim, volume), [&](int j, const double *, double) {
-      if (body_of[j] != body_of[i]) touching = 1;
+      if (body_of[j] != body_of[i] && !((atom->mask[i] | atom->mask[j]) & with_contact))
+        touching = 1;
     });
   }
   warned_of_contact = over_all(world, touching, MPI_MAX);
   if (warned_of_contact && comm->me == 0)
     error->warning(FLERR,
                    "Pair style {}: a body touches another one, or a wall, in step {}: bodies have "
-                   "no contact forces, only the fluid keeps them apart",
+                   "no contact forces, only the fluid keeps them apart; use contact of fix "
+                   "sph/wall",
                    style, update->ntimestep);
 }
 
 /* ---------------------------------------------------------------------- */
+
+bool BoundaryStage::has_contact() const
+{
+  return body_bits && std::any_of(boundaries.begin(), boundaries.end(), [](const Boundary *one) {
+           return one->contact() != nullptr;
+         });
+}
 
 bool BoundaryStage::is_body(int i) const
 {
@@ -848,7 +860,29 @@ void BoundaryStage::check(bool found)
   std::vector<double> part;
   find_filled(par.kernel, near, part);
   for (int i = 0; i < atom->nlocal; i++)
-    if (part[i] > INSIDE_WALL && !(atom->mask[i] & group_bits)) stop_for(i);
+    if (part[i] > INSIDE_WALL && !(atom->mask[i] & group_bits) && is_inside(i)) stop_for(i);
+}
+
+/* ----------------------------------------------------------------------
+   Return whether a particle of the fluid that boundaries surround is inside of one body, or of walls, alone.  Between a body
+   and a wall, or two bodies, it is caught in a gap.
+------------------------------------------------------------------------- */
+
+bool BoundaryStage::is_inside(int i) const
+{
+  if (!body_bits) return true;
+  std::map<int, double> part;    // by the number of the body
+  with_kernel(engine.parameters().kernel, [&](auto kernel) {
+    for (int j = 0; j < atom->nlocal + atom->nghost; j++) {
+      if (!(atom->mask[j] & group_bits)) continue;
+      const double distance = near[j].scale * sqrt(MathExtra::distsq3(atom->x[i], atom->x[j]));
+      if (distance < 1.0) part[body(j)] += near[j].norm * kernel.shape(distance);
+    }
+    return 0;
+  });
+  return std::any_of(part.begin(), part.end(), [](const auto &one) {
+    return one.second > INSIDE_WALL;
+  });
 }
 
 /* ---------------------------------------------------------------------- */

@@ -45,6 +45,7 @@ namespace SPHDissipation {
     bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any boundary
     bool is_body(int i) const;    // i belongs to a body that the fluid moves
     bool has_bodies() const { return body_bits != 0; }
+    bool has_contact() const;    // any body has contact forces
     int bits_of_bodies() const { return body_bits; }
     bool has_mean_pressure() const { return mean_bits != 0; }    // any boundary
     bool conducts() const    // boundaries take part in the conduction of heat
@@ -213,6 +214,7 @@ namespace SPHDissipation {
     void accumulate();
     void accumulate_heat();
     void check(bool found);    // for particles inside of a wall; found: the neighbor list is new
+    bool is_inside(int i) const;
   };
 
 }    // namespace SPHDissipation

@@ -25,6 +25,7 @@
 #include "pair_hybrid.h"
 #include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_checks.h"
+#include "sph_dissipation_contact.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
@@ -80,6 +81,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     pair_energies(new PairEnergyStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
+    contact(new ContactStage(lmp, *engine, *exchange, *boundary, style)),
     shift(new ShiftStage(lmp, *engine, *exchange)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
@@ -440,6 +442,8 @@ void Fluid::list_stages()
   add(zones, "ledger", SLOPES | PRESSURES, NOTHING, call(*open, &OpenStage::sum_impacts, list));
   add(viscous->active() || warm, "totals", SUMS, SUMS, call(*forces, &ForceStage::collect));
   add(warm, "work", SUMS | FORCES, FORCES, call(*noise, &NoiseStage::share_work));
+  add(boundary->has_contact(), "contact", WALLS | FORCES, FORCES,
+      call(*contact, &ContactStage::run));
 }
 
 /* ---------------------------------------------------------------------- */
@@ -702,6 +706,7 @@ double Fluid::energy(double *each_atom) const
   constexpr int ALL = 1;    // bit of the group
   double energy = pressure->elastic_energy(each_atom, not_fluid());
   if (!boundary->empty()) energy += wall_energy(each_atom);
+  if (boundary->has_contact()) energy += contact->energy(each_atom);
   if (pair_energies->active()) energy += pair_energies->energy(each_atom, ALL);
   return energy;
 }
@@ -1170,6 +1175,7 @@ CoeffTable Fluid::coeff_table()
       table.add_row(i, j, model->pair_fluid(i, j), damped, std::min(sound_step(i), sound_step(j)),
                     diffusion_of);
     }
+  if (boundary->has_contact()) table.add_contact(contact->largest_step());
   return table;
 }
 
@@ -1294,7 +1300,8 @@ bool Fluid::has_type(int type) const
 double Fluid::memory_usage() const
 {
   return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
-      open->memory_usage() + boundary->memory_usage() + shift->memory_usage() +
-      noise->memory_usage() + viscosity->memory_usage() + viscous->memory_usage() +
-      temperature->memory_usage() + diffusion->memory_usage() + pair_energies->memory_usage();
+      open->memory_usage() + boundary->memory_usage() + contact->memory_usage() +
+      shift->memory_usage() + noise->memory_usage() + viscosity->memory_usage() +
+      viscous->memory_usage() + temperature->memory_usage() + diffusion->memory_usage() +
+      pair_energies->memory_usage();
 }

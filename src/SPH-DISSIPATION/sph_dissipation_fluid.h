@@ -37,6 +37,7 @@ namespace SPHDissipation {
   class Exchange;
   class FluidModel;
   struct ForceSum;
+  class ContactStage;
   class ForceStage;
   class FlowStage;
   class FluidState;
@@ -91,6 +92,7 @@ namespace SPHDissipation {
 
     const std::unique_ptr<OpenStage> open;
     const std::unique_ptr<BoundaryStage> boundary;
+    const std::unique_ptr<ContactStage> contact;
     const std::unique_ptr<ShiftStage> shift;
     const std::unique_ptr<NoiseStage> noise;
     const std::unique_ptr<ViscousStage> viscous;

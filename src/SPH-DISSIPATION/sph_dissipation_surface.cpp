@@ -14,9 +14,7 @@
 #include "sph_dissipation_surface.h"
 
 #include "atom.h"
-#include "math_const.h"
 #include "math_extra.h"
-#include "sph_dissipation_cells.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 
@@ -26,29 +24,11 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Width and cutoff, in particle spacings, of the Gaussian that finds the outer layer: on lattices, its sums are as accurate
-// as integrals
-
-static constexpr double WIDTH = 0.7;
-static constexpr double CUTOFF = 3.0;
-
-// Largest filled part of space around a particle of the outer layer: 1/2 at the surface, 0.67 to 0.79 in the outer layer of
-// lattices, and at least 0.87 in the next one
-
-static constexpr double OUTER = 0.85;
-
-// A sum of vectors has a direction if it is longer than this part of the sum of their lengths: a
-// shorter one is the residual of vectors that cancel each other.
-
-static constexpr double RESIDUAL = 0.1;
-
-// Return 1 inside of a sphere, and smoothly 0 at its surface, on which particles of lattices lie
+static constexpr double RESIDUAL = SurfacePlane::RESIDUAL;
 
 static double edge(double rsq, double radius)
 {
-  constexpr double WITHIN = 0.97;
-  const double part = (1.0 - rsq / (radius * radius)) / (1.0 - WITHIN);
-  return (part < 1.0) ? part * part * (3.0 - 2.0 * part) : 1.0;
+  return SurfacePlane::edge(rsq, radius);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -109,7 +89,7 @@ void SurfaceStage::find(int bits)
     if (i < atom->nlocal) owned.push_back(i);
   }
 
-  const double radius = (spacing > 0.0) ? std::min(support, CUTOFF * spacing) : support;
+  const double radius = (spacing > 0.0) ? SurfacePlane::radius(support, spacing) : support;
   find_outer_layer(Cells(atom->x, all, radius), owned);
   Surface *const first = surface.data();
   const Field normal = field(first, first->normal, 3), depth = field(first, &first->depth, 1);
@@ -150,9 +130,7 @@ template <class Task> void SurfaceStage::for_each(const std::vector<int> &owned,
 }
 
 /* ----------------------------------------------------------------------
-   Set normal and depth of the outer layer; other layers, and layers on the far side from the fluid, get the normal 0.  In
-   the outer layer of a plane wall, the filled part is 1/2 + b g(0)/2 with the distance b between layers and the Gaussian g
-   across the wall: half of space is filled without the layer, and half of the layer is missing.  The surface is b/2 away.
+   Set normal and depth of the outer layer; other layers, and layers on the far side from the fluid, get the normal 0.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
@@ -163,24 +141,15 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
     Surface &s = surface[i];
     const bool of_body = body && body[i] > 0.0;
     if (!of_body && MathExtra::lensq3(s.normal) == 0.0) return;    // out of reach of the fluid
-    const double width = WIDTH * s.spacing;
-    const double norm = 1.0 / whole_power(width * sqrt(MathConst::MY_2PI), dim);
-    const double radius = std::min(support, CUTOFF * s.spacing);
-    double filled = 0.0, inward[3] = {0.0, 0.0, 0.0};
-    cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
-      if (!together(i, j)) return;
-      const double part =
-          atom->vfrac[j] * norm * exp(-0.5 * rsq / (width * width)) * edge(rsq, radius);
-      filled += part;
-      for (int d = 0; d < 3; d++) inward[d] += part * r[d];
+    const SurfacePlane plane(cells, atom->x[i], s.spacing, support, dim, [&](int j) {
+      return together(i, j) ? atom->vfrac[j] : 0.0;
     });
-    const double length = MathExtra::len3(inward);
     const bool faces = of_body ||
-        MathExtra::dot3(inward, s.normal) <
-            -RESIDUAL * RESIDUAL * length * MathExtra::len3(s.normal);
-    const bool outer = filled < OUTER && length > RESIDUAL * RESIDUAL * width && faces;
-    for (int d = 0; d < 3; d++) s.normal[d] = outer ? -inward[d] / length : 0.0;
-    s.depth = (filled - 0.5) * width * sqrt(MathConst::MY_2PI);
+        MathExtra::dot3(plane.inward, s.normal) <
+            -RESIDUAL * RESIDUAL * plane.length * MathExtra::len3(s.normal);
+    const bool outer = plane.outer && plane.directed && faces;
+    for (int d = 0; d < 3; d++) s.normal[d] = outer ? -plane.inward[d] / plane.length : 0.0;
+    s.depth = plane.depth;
   });
 }
 
@@ -234,7 +203,7 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
     if (!(MathExtra::lensq3(s.normal) > 0.0)) return;
-    const double radius = std::min(support, CUTOFF * s.spacing);
+    const double radius = SurfacePlane::radius(support, s.spacing);
     double turn = 0.0, norm = 0.0;
     cells.near(atom->x[i], radius, [&](int j, const double *r, double rsq) {
       if (!together(i, j)) return;

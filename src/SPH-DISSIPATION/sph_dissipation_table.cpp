@@ -33,12 +33,13 @@ static constexpr double ONE_PERCENT_STEP = 0.15, TENTH_PERCENT_STEP = 0.05;
 
 std::string CoeffTable::text(double dt) const
 {
-  std::string result =
-      lines() +
-      fmt::format(
-          "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
-          "of the largest stable time step\n",
-          ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
+  std::string result = lines();
+  if (contact < UNLIMITED_STEP)
+    result += fmt::format("  largest stable time step of the contact of bodies: {:.4g}\n", contact);
+  result += fmt::format(
+      "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
+      "of the largest stable time step\n",
+      ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
   if (!(std::min(viscous, heat) < UNLIMITED_STEP)) return result;
   const auto stages_for = [](double rate) {
     const double stages = RKL2::stages_for(rate);
@@ -56,6 +57,15 @@ std::string CoeffTable::text(double dt) const
     result +=
         fmt::format("of the conduction of heat is {:.3g}: rkl2 {}", of_heat, stages_for(of_heat));
   return result + "\n";
+}
+
+/* ---------------------------------------------------------------------- */
+
+void CoeffTable::add_contact(double step)
+{
+  contact = step;
+  smallest = std::min(smallest, step);
+  acoustic = std::min(acoustic, step);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -38,6 +38,7 @@ namespace SPHDissipation {
     // volume
     void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step,
                  double diffusion_rate);
+    void add_contact(double step);    // largest stable time step of the contact of bodies
     // Return the table, with lines on the accuracy of these steps, and on what the time step dt needs
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // of all rows, with all terms together
@@ -67,7 +68,7 @@ namespace SPHDissipation {
     const double fastest;
     std::vector<Row> rows;
     std::set<int> left_out;    // optional channels that no row uses
-    double smallest = UNLIMITED_STEP, acoustic = UNLIMITED_STEP;
+    double smallest = UNLIMITED_STEP, acoustic = UNLIMITED_STEP, contact = UNLIMITED_STEP;
     double viscous = UNLIMITED_STEP, dissipative = UNLIMITED_STEP, heat = UNLIMITED_STEP;
 
     static double rate_of(double step) { return (step < UNLIMITED_STEP) ? 1.0 / step : 0.0; }

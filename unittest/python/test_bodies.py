@@ -854,25 +854,6 @@ def test_covariance_of_the_impulses(lammps):
 # ---- contact --------------------------------------------------------------------------------------------------------
 
 
-def test_contact(lammps):
-    """The input of the page: a pair style between the centers of two bodies keeps them apart; without it they overlap."""
-    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "lj/cut" in text)
-    last = {}
-    for strength in (1.0, 1e-12):
-        result = lammps(text.replace("lj/cut 1.0 0.8 ", f"lj/cut {strength} 0.8 "))
-        assert not result.warnings
-        (table,) = result.thermo()
-        assert np.abs(table["v_p"]).max() < 1e-14
-        last[strength] = table["v_distance"][-2:]
-    assert np.all(last[1.0] > 0.86) and np.all(last[1.0] < 0.91) and np.all(last[1e-12] < 2 * 0.35)
-    text = text.replace("hybrid/overlay sph/bulk lj/cut 1.0", "sph/bulk").replace("1*2 1*2 sph/bulk", "* *").replace("type 3 mass 1.0e-8", "type 3 mass 0.01")
-    text = re.sub(r"create_atoms    3 .*\n|pair_coeff.*(none|lj/cut).*\n", "", text).replace("thermo          100", "thermo          1").replace(" 1000\n", " 326\n")
-    result = lammps(text.replace("$(1.0/", "$(4.0/").replace("$(-1.0/", "$(-4.0/"))
-    (step,) = (int(re.search(r"a body touches another one, or a wall, in step (\d+):", line)[1]) for line in result.warnings)
-    (table,) = result.thermo()
-    assert table["v_distance"][table["Step"] == step][0] == pytest.approx(0.63, abs=0.03)
-
-
 # ---- equipartition --------------------------------------------------------------------------------------------------
 
 

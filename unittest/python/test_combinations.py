@@ -101,6 +101,13 @@ def disc(rigid, heat=""):
                  force=("-f_disc[{k}]",), **dict(cv=100.0, conductivity=30.0, energy=2.5) if heat else {})
 
 
+def halves():
+    """Two bodies that touch each other from the start, and press each other."""
+    return Lines(particles=("disc",), fixes=("region half block INF 9.0[l] INF INF INF INF units box", "group left region half", "group one intersect left disc",
+                                             "group two subtract disc left", "fix turn disc rigid group 2 one two", "fix one one sph/wall move rigid contact 0.5 0.3",
+                                             "fix two two sph/wall move rigid"), force=("-f_one[{k}]", "-f_two[{k}]"))
+
+
 def body(fix):
     return Lines(fixes=("variable mx atom 4.0[v/t]*mass", "variable my atom -3.0[v/t]*mass", "variable driven atom mass*gmask(driven)",
                         "compute driven fluid reduce sum v_driven", f"fix G driven {fix}"),
@@ -122,6 +129,7 @@ FEATURES = {
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused=NOT_WITH_BODIES),
     "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05[T]"),
                           refused={**NOT_WITH_BODIES, "noise": "conductivity"}),
+    "contact": Feature(halves(), refused={**NOT_WITH_BODIES, "noise": "restitution"}),
     "open": Feature(zones(1, "pressure 1.0[p]"), zones(3, "density 1.01[r]"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom 1.0[ll]*({TARGET})", "fix R fluid sph/refine 5 volume v_t")),
                      Lines(pair=("volume mass",), fixes=(f"variable t atom 1.0[l]*sqrt({TARGET})", "fix R fluid sph/refine 5 spacing v_t")),
@@ -176,7 +184,7 @@ FEATURES = {
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
-NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies"), ("walls", "dense_walls")}  # two values of the same
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies"), ("bodies", "contact"), ("hot_bodies", "contact"), ("walls", "dense_walls")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
 # and the random forces of a drag are no pairs'
 NO_BALANCE = {("walls", "open"): "", ("dense_walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
@@ -472,7 +480,7 @@ def test_pair(cases, names):
 
 
 # the same features in the words of the pages
-ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "open": r"ix sph/open\b",
+ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "open": r"ix sph/open\b",
             "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
             "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
             "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant", "thixotropy": r"\*thixotropy\*|iscosities that are not constant",
@@ -482,6 +490,7 @@ REQUIRED = {frozenset(["thinning", "spin"]): r"Pair style \*sph/bulk\*.* require
             frozenset(["thixotropy", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["thixotropy", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["thinning", "idle_spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["heat", "gas"]): r"\*gruneisen\* values .*with \*eos linear\* and \*tait\*",
+            frozenset(["contact", "noise"]): r"With \*temp\* .*\*e\* must be 1 and \*mu\* 0",
             frozenset(["hot_bodies", "noise"]): r"\*temp T seed\* .*\*conductivity\*"}
 
 

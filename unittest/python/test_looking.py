@@ -209,13 +209,34 @@ def test_cut_averages(tmp_path):
 
 
 
+def test_series(tmp_path):
+    """of scalars: cut, appended, with other columns; of vectors"""
+    path = tmp_path / "gauges.txt"
+    path.write_text(SCALARS)
+    found = sph.series(path)
+    assert list(found) == ["TimeStep", "v_t", "c_level"] and found["TimeStep"].tolist() == [0, 20, 40] and found["v_t"].tolist() == [0.0, 0.20, 0.40]
+    for end in range(len(SCALARS) - 6, len(SCALARS)):
+        path.write_text(SCALARS[:end])
+        with pytest.warns(UserWarning, match="step 40 is cut"):
+            assert sph.series(path)["TimeStep"].tolist() == [0, 20]
+    path.write_text(SCALARS + SCALARS.replace("\n20", "\n60"))
+    assert sph.series(path)["TimeStep"].tolist() == [0, 20, 40, 0, 60, 40]
+    path.write_text(SCALARS + SCALARS.replace("v_t", "v_u"))
+    with pytest.raises(ValueError, match="two outputs with different columns"):
+        sph.series(path)
+    path.write_text(CHUNKS)
+    with pytest.raises(ValueError, match="which averages.. reads"):
+        sph.series(path)
+
+
 GRID = "ITEM: TIMESTEP\n0\nITEM: GRID SIZE nx ny nz\n2 1 1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n-0.5 0.5\nITEM: GRID CELLS ix iy iz f\n1 1 1 0\n2 1 1 0.5\n"
 CHUNKS = "# Chunk-averaged data\n# Timestep Number-of-chunks Total-count\n# Chunk Ncount vx\n10 2 9\n  1 4 0.25\n  2 5 0.5\n20 2 9\n  1 4 0.25\n  2 5 0.5\n"
+SCALARS = "# Time-averaged data for fix gauges\n# TimeStep v_t c_level\n" + "".join(f"{step} 0.{step} 1.5\n" for step in range(0, 60, 20))
 FLUIDS = (ROOT / "potentials" / "gases.sph").read_text().partition("columns ")
 WORDS = ["nan", "inf", "-1", "1e400", "9" * 20, "\u00b2", "abc", "#", "ITEM: ATOMS id\n", "ITEM: TIMESTEP\n", "\0", "-", "0", "1.5", "\n", "columns"]
 
 
-@pytest.mark.parametrize("read, text", [(frames, DUMP), (sph.read_grid, GRID), (sph.averages, CHUNKS), (sph.read_array, CHUNKS),
+@pytest.mark.parametrize("read, text", [(frames, DUMP), (sph.read_grid, GRID), (sph.averages, CHUNKS), (sph.read_array, CHUNKS), (sph.series, SCALARS),
                                         (sph.fluids.read, "".join(FLUIDS[1:]))], ids=lambda value: getattr(value, "__name__", ""))
 @pytest.mark.filterwarnings("ignore")
 def test_damaged_files(tmp_path, read, text):

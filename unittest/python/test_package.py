@@ -16,6 +16,7 @@ import pytest
 import sph_dissipation as sph
 from helpers import INTEGRATE, disordered, fluid, header
 from sph_dissipation import plan
+from test_pages import blocks
 
 ROOT = Path(__file__).resolve().parents[2]
 CASE = "--fluid CO2 --frequency 30e3 --particles 20"
@@ -86,6 +87,17 @@ def test_averages(formats, lammps):
     assert list(vectors) == [4, 8, 12] and all(len(columns["Row"]) == 6 for columns in vectors.values())
     last = lammps.path("vectors.txt").read_text().split()[-1]
     assert vectors[12]["c_V"][-1] == float(last) == sph.read_array(lammps.path("vectors.txt"))[-1][-1, -1]
+
+
+def test_gauges(lammps):
+    """The file that the input of the manual's page writes, against the log."""
+    (text,) = [code for _, _, code, _ in blocks(ROOT / "doc/src/Howto_sph_surface.rst") if "gauges.txt" in code]
+    text = re.sub(r"ave/time 5 4 20", "ave/time 1 1 20", text).replace("thermo          100", "thermo 20").replace("run             $(round(v_end/dt))", "run 100")
+    (log,) = lammps(text).thermo()
+    found = sph.series(lammps.path("gauges.txt"))
+    assert list(found) == ["TimeStep", "v_t", "v_front", "c_level", "v_tap", "v_mean", "c_thrust"] and list(found["TimeStep"]) == list(log["Step"])
+    for name in ("v_front", "c_level", "v_mean", "c_thrust"):
+        np.testing.assert_allclose(found[name], log[name], rtol=1e-5, atol=1e-12)
 
 
 # what makes it short; figures; lines of results; relative errors of those stored, and of the short one
