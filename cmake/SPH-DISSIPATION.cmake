@@ -43,6 +43,10 @@ function(sph_dissipation_add_sources)
   file(GLOB sources CONFIGURE_DEPENDS "${SPH_DISSIPATION_SOURCE_DIR}/[^.]*.cpp")
   target_sources(lammps PRIVATE ${sources})
   target_include_directories(lammps PRIVATE "${SPH_DISSIPATION_SOURCE_DIR}")
+  # where pair_coeff finds the files of fluids without the variable LAMMPS_POTENTIALS
+  get_filename_component(potentials "${SPH_DISSIPATION_SOURCE_DIR}/../../potentials" ABSOLUTE)
+  set_property(SOURCE "${SPH_DISSIPATION_SOURCE_DIR}/sph_dissipation_fluids.cpp" TARGET_DIRECTORY lammps APPEND PROPERTY
+    COMPILE_DEFINITIONS "SPH_DISSIPATION_POTENTIALS=\"${potentials}\"")
 endfunction()
 
 # compute sph/spectrum needs the distributed FFTs of KSPACE and finds their headers in the include path if they are there.

@@ -1,18 +1,25 @@
 # SPDX-License-Identifier: GPL-2.0-only
 """Prints a complete LAMMPS input for a fluid, a length, and a velocity, with the numbers that follow from them.
 
+    ./sphd plan --fluid CO2 --frequency 30e3 --run --plot                # writes in.sound, runs it, draws measured beside theory: sound.png
     ./sphd plan --fluid water --length 1e-3 --velocity 0.01 > in.flow
     ./sphd plan --rho 1 --mu 0.01 --kappa 0.02 --length 1 --velocity 1 --dim 3 --particles 32
     ./sphd plan --fluid CO2 --frequency 30e3                             # sound: a standing wave, by frequency or --wavelength
     ./sphd plan --fluid water --column 0.6 --tank 3.22                   # a column of water that falls into a tank: a dam break
+    ./sphd plan --rho 1 --mu 0.1 --channel 1 --velocity 1 --yield 0.2    # a channel between two walls, here of a fluid with a yield stress
     ./sphd plan --rho 1 --mu 0.5 --length 16 --velocity 0.1 --c 3 --particles 16 --temperature 0.02
+    ./sphd plan --rho 1 --mu 0.07 --kappa 0.2 --colloid 2 --temperature 0.001   # a sphere in a fluid with thermal noise
 
 With --fluid, a name of potentials/gases.sph or fluids.sph in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]] (percent, K, Pa), all
 numbers are in SI units; else in the units of --units. The input is a periodic box, filled with a stream; the flow is to be put in its place. With
 --wavelength, --frequency, or --c real it is filled with a standing wave of sound, as long as the box. What the choices are made by
-is in the manual, "Choosing numbers". With --column the input is a tank with a free surface, see "Free surfaces" there.
+is in the manual, "Choosing numbers". With --column the input is a tank with a free surface, see "Free surfaces" there, with --channel
+a flow between two walls, with --colloid a sphere that thermal noise moves. All of these inputs, but that of a flow, print what is
+measured beside theory.
 """
 import argparse
+import cmath
+import difflib
 import itertools
 import math
 import os
@@ -117,18 +124,21 @@ class Plan:
     """All that follows from the arguments."""
 
     args: argparse.Namespace
+    walls = False    # a flow between two walls
 
     def __post_init__(self):
         args = self.args
         self.dim, self.units = args.dim, "si" if args.fluid else args.units or "lj"
         self.wave = args.c == "real" or bool(args.wavelength or args.frequency)
+        self.name = "sound" if self.wave else "column" if args.column else "channel" if self.walls else "colloid" if args.colloid else "flow"    # of the files
         # mg/fr2 and wendland/c2 are right at three spacings in a flow whose particles are shifted.  A free surface and noise need mg, which
         # dissipates there with any kappa.  c6 smooths a wave less; under the pressure pb, a lattice of it is stable, with 6 spacings for ten periods
         flows = not (self.wave or args.column or args.temperature is not None)
         args.shear = args.shear or ("mg/fr2" if flows else "mg")
-        args.kernel = args.kernel or ("wendland/c6" if self.wave else "wendland/c2")
-        three = flows and (args.shear, args.kernel) == ("mg/fr2", "wendland/c2")
-        args.support = args.support or (6.0 if self.wave else 3.0 if three else 4.0)
+        args.kernel = args.kernel or ("wendland/c6" if self.wave else "quintic" if self.walls else "wendland/c2")
+        three = flows and (args.shear, args.kernel) == ("mg/fr2", "quintic" if self.walls else "wendland/c2")
+        args.support = args.support or (6.0 if self.wave else 3.0 if three or args.colloid else 4.0)
+        args.particles = args.particles or (12 if args.colloid else 50)
         self.set_fluid()
         self.set_length()
         self.set_relaxation()
@@ -174,7 +184,9 @@ class Plan:
             try:
                 self.real = fluids.find(args.fluid)
             except KeyError as known:
-                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {known.args[0]}; for another one give "
+                names = known.args[0].split()
+                names.sort(key=lambda name: -difflib.SequenceMatcher(None, args.fluid.lower(), name.lower()).ratio())
+                raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {' '.join(names)}; for another one give "
                                  "--rho, --mu, --kappa, and --units si") from None
             except ValueError as error:
                 raise SystemExit(f"plan: no fluid {args.fluid}: {error}") from None
@@ -250,6 +262,7 @@ class Plan:
     def notes(self):
         args = self.args
         lines = [f"{args.fluid or 'fluid'}, {self.dim}d, length {args.length:.6g}, velocity {args.velocity:g}, units {self.units}{self.kappa_note()}"]
+        self.theory, self.part = "", None    # v_theory in the input; amplitude and exponent
         lines += self.frequency_notes()
         lines += self.wave_notes() if self.wave else self.flow_notes()
         steps = ", ".join(f"{name} {step:.4g}" for name, step in self.limits.items() if step < math.inf)
@@ -312,6 +325,14 @@ class Plan:
         lines = ["pressure            with pb the particles are a crystal: right for sound, not for shear"]
         if s is None or abs(s.real) > 2 * s.imag:
             return lines + ["NOTE                the wave does not outlive a period"]
+        # all of the wave of velocity U at the start, when no strain is there yet, is U sum exp(s t)/D'(s) over the roots of
+        # D = s + nu k^2 + k^2 c^2/s + sum k^2 g/(s + 1/tau); those that do not oscillate are small, and left out
+        square = (2 * math.pi / self.args.length)**2
+        slope = 1 - square * self.c0**2 / s**2 - sum(square * kappa / self.rho / tau / (s + 1 / tau)**2 for kappa, tau in self.fluid.relax)
+        part = 2 * self.args.velocity / slope
+        self.part = part, s
+        self.theory = (f"variable        theory equal {abs(part):.6g}*exp({s.real:.6g}*time)*cos({s.imag:.6g}*time"
+                       f"{math.atan2(part.imag, part.real):+.4g})\n")
         k = wave.wave_number(s.imag / (2 * math.pi))
         more = wave.wave_number(s.imag / (2 * math.pi), wave.conduction).imag / k.imag - 1 if k.imag else 0.0
         lines.append(f"sound               frequency {s.imag / (2 * math.pi):.4g}, speed {s.imag / k.real:.5g}, absorption of a driven wave "
@@ -351,7 +372,7 @@ class Plan:
         return min(0.5 * self.rc, math.sqrt(10 / (3 * self.dim) * self.args.velocity * self.dt * self.rc))
 
     def input(self, time=""):
-        args = self.args
+        args, notes = self.args, self.notes() + ([time] if time else [])
         noise = "" if args.temperature is None else (" limit yes" if self.zeta < 0.0 else "") + f" temp {args.temperature:g} 4711"
         kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
         shift = "" if args.temperature is not None or self.wave else " shift auto    # with a free surface: no density rho0"
@@ -364,9 +385,9 @@ class Plan:
             flow = (f'variable        wave atom sin(2.0*PI*x/lx)\nvariable        ux atom {args.velocity:g}*v_wave\n'
                     "velocity        all set v_ux NULL NULL units box    # put another wave here\n")
             output = ("variable        part atom 2.0*vx*v_wave\ncompute         amplitude all reduce ave v_part\n"
-                      "thermo_style    custom step time c_amplitude press cpuremain\n")
+                      f"{self.theory}thermo_style    custom step time c_amplitude {'v_theory ' if self.theory else ''}press cpuremain\n")
         box = " ".join(f"0 {n}" for n in self.cells) + (" -0.5 0.5" if self.dim == 2 else "")
-        return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
+        return "".join(f"# {line}\n" for line in notes) + f"""
 units           {self.units}
 dimension       {self.dim}
 atom_style      sph/bulk{room}
@@ -383,10 +404,27 @@ pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:
 fix             1 all sph/bulk density rho0{viscous}{shift}
 
 timestep        {self.dt:.3g}
-{output}thermo          {max(self.steps // 100, 1)}
-variable        steps index {self.steps}
-run             ${{steps}}
-"""
+{output}{self.ends()}"""
+
+    def ends(self):
+        """what all inputs end with"""
+        return (f"dump            1 all custom {max(self.steps // 20, 1)} {self.name}.dump id type x y z vx vy vz\n"
+                f"thermo          {max(self.steps // 100, 1)}\nrun             {self.steps}\n")
+
+    def figure(self, plt, thermo):
+        """of what is measured beside theory, from the columns of the log"""
+        figure, axes = plt.subplots()
+        if self.part:
+            part, s = self.part
+            times = [thermo["Time"][-1] * k / 2000 for k in range(2001)]
+            axes.plot(times, [(part * cmath.exp(s * time)).real for time in times], "k-", label="theory")
+        axes.plot(thermo["Time"], thermo["c_amplitude"], "o", label="measured")
+        axes.set(xlabel=self.label("time", "s"), ylabel=self.label("amplitude of the velocity", "m/s"))
+        axes.legend()
+        return figure
+
+    def label(self, name, unit):
+        return f"{name} ({unit})" if self.units == "si" else name
 
 
 class Column(Plan):
@@ -457,7 +495,9 @@ class Column(Plan):
         origin = "0.5 0.5 0.0" if self.dim == 2 else "0.5 0.5 0.5"
         length, width, g = self.tank * dx, self.width * dx, self.gravity
         top, lid = (self.height + wall, f"{self.height:.8g}") if self.falls else (self.height, "INF")    # of the domain; of the tank
-        area = "" if self.dim == 2 else f"/{self.depth * dx:.8g}"
+        depth = 1 if self.dim == 2 else self.depth * dx
+        theory = (f"{width:.8g}+{2 * math.sqrt(g * args.column):.8g}*time    # Ritter's front, an upper bound" if self.falls else
+                  f"{self.rho * g * args.column**2 / 2 * depth:.8g}    # at rest")
         return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
 units           {self.units}
 dimension       {self.dim}
@@ -485,18 +525,234 @@ fix             w walls sph/wall slip {self.slip} gravity 0 {-g:.8g} 0
 fix             1 water sph/bulk{f' {self.viscous}' if self.viscous else ''}
 
 timestep        {self.dt:.3g}
-compute         front water reduce max x
-variable        front equal c_front+{0.5 * dx:.8g}
+variable        front equal bound(water,xmax)+{0.5 * dx:.8g}
 region          far block {length:.8g} INF INF INF INF INF units box
-group           far region far
-compute         push far reduce sum f_w[1]                # force on the far wall
-variable        push equal c_push{area}
-thermo_style    custom step time v_front v_push ke cpuremain
+compute         push walls reduce/region far sum f_w[1]    # force on the far wall
+compute         water water property/atom rho vol
+variable        p atom {2 * self.c0**2 / self.rc:.8g}*(c_water[1]-{self.rho:.8g})*(c_water[1]>{self.rho:.8g})*c_water[2]*(x>{length - 0.5 * self.rc:.8g})
+compute         mean water reduce sum v_p                  # ... by the pressure of the water within rc/2 of it
+variable        theory equal {theory}
+thermo_style    custom step time v_front c_push c_mean v_theory cpuremain
 thermo_modify   norm no
-thermo          {max(self.steps // 100, 1)}
-variable        steps index {self.steps}
-run             ${{steps}}
+{self.ends()}"""
+
+    def figure(self, plt, thermo):
+        figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
+        left.plot(thermo["Time"], thermo["v_front"], label="front")
+        right.plot(thermo["Time"], thermo["c_push"], label="on the wall")
+        right.plot(thermo["Time"], thermo["c_mean"], label="by the pressure in the water")
+        axes, name = (left, "Ritter's front, an upper bound") if self.falls else (right, "hydrostatic")
+        axes.plot(thermo["Time"], thermo["v_theory"], "k--", label=name)
+        left.set(xlabel=self.label("time", "s"), ylabel=self.label("front", "m"), ylim=(0, 1.05 * self.tank * self.dx))
+        right.set(xlabel=self.label("time", "s"), ylabel=self.label("force on the far wall", "N/m" if self.dim == 2 else "N"))
+        for axes in (left, right):
+            axes.legend()
+        return figure
+
+
+class Channel(Plan):
+    """A flow between two walls, along which a force drives the fluid, which may have a yield stress."""
+
+    walls = True
+
+    def set_length(self):
+        args = self.args
+        args.length, self.frequency = args.channel, args.velocity / args.channel
+        self.stress = args.yield_stress or 0.0
+        self.slowest = args.channel / args.velocity * 50.0    # m of the keyword yield
+
+    def set_particles(self):
+        args = self.args
+        self.row = args.channel / args.particles                   # distance of the rows
+        self.along = self.row * 2 / math.sqrt(3)                   # ... of the particles in a row
+        self.dx = math.sqrt(self.row * self.along)
+        self.rc = args.support * self.dx
+        if args.support <= LATTICE[2][1]:
+            raise SystemExit(f"plan: --support {args.support:g} reaches no neighbor in a row, the nearest are at {LATTICE[2][1]:.3g}; take 3 or more")
+        self.columns = max(12, math.ceil(2 * self.rc / self.along) + 1)
+        self.layers = math.ceil(self.rc / self.row)
+        self.lattice = f"hex {1 / self.dx**2:.8g}" if self.units == "lj" else f"hex {self.along:.8g}"
+        self.number = self.columns * (args.particles + 2 * self.layers)
+        # the stress tau at the wall drives the fluid: 2 mu U tau = H/2 (tau - tau_y)^2
+        half, viscous = args.channel / 2, self.mu * args.velocity / (args.channel / 2)
+        self.at_wall = self.stress + viscous + math.sqrt(viscous * (viscous + 2 * self.stress))
+        self.plug = self.stress / self.at_wall                     # part of the channel that moves as a whole
+        self.pressure = 0.01 * self.rho * self.c0**2
+        args.time = args.time or 0.7 * self.rho * args.channel**2 / self.mu
+        self.force = self.at_wall / half / self.rho                # per mass
+
+    def set_time_step(self):
+        constant, self.mu = self.mu, self.mu + self.stress * self.slowest
+        super().set_time_step()
+        self.mu = constant
+        if self.viscous and self.stress:
+            self.viscous = "viscous rkl2"    # which mu that is not constant needs
+
+    def flow_notes(self):
+        args = self.args
+        yields = f", yield stress {self.stress:g}: {100 * self.plug:.2g} % of the channel moves as a plug" if self.stress else ""
+        return [f"Reynolds number     {self.rho * args.velocity * args.channel / self.mu:.4g}, Mach number {args.velocity / self.c0:.3g}{yields}",
+                f"force               {self.force:.5g} per mass, which gives the stress {self.at_wall:.5g} at the walls",
+                f"theory              mean velocity {self.mean():.5g} in the end, from rest within 0.1 % after {0.7 * self.rho * args.channel**2 / self.mu:.4g}"]
+
+    def mean(self):
+        return self.args.velocity * (2 + self.plug) / 3
+
+    def profile(self, y):
+        """velocity at the distance y from the middle, over half of the width"""
+        return self.args.velocity * (1 - max(0.0, (abs(y) - self.plug) / (1 - self.plug))**2)
+
+    def scaled(self, factor):
+        args = argparse.Namespace(**vars(self.args))
+        args.particles = max(int(args.particles * factor), 4)
+        args.channel = self.row * args.particles
+        return Channel(args)
+
+    def input(self, time=""):
+        args, thick, height = self.args, self.layers * self.row, self.args.channel
+        length = self.columns * self.along
+        kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
+        law = f" yield {self.stress:.6g} {self.slowest:.6g}" if self.stress else ""
+        return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
+units           {self.units}
+dimension       2
+boundary        p f p
+atom_style      sph/bulk
+
+lattice         {self.lattice} origin 0.25 0.25 0.0    # walls halfway between two rows
+region          box block 0 {length:.8g} {-thick:.8g} {height + thick:.8g} -0.5 0.5 units box
+create_box      1 box
+create_atoms    1 box
+set             group all mass {self.rho * self.dx**2:.8g}
+region          fluid block INF INF 0 {height:.8g} INF INF units box
+group           fluid region fluid
+group           walls subtract all fluid
+
+neighbor        {self.skin():.4g} bin
+pair_style      sph/bulk kernel {args.kernel} shear {args.shear}
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g} pb {self.pressure:.6g}{law}    # rho0 c0 mu kappa rc
+fix             1 fluid sph/bulk density rho0{f' {self.viscous}' if self.viscous else ''}
+fix             drive fluid gravity {self.force:.8g} vector 1 0 0
+fix             walls walls sph/wall
+
+timestep        {self.dt:.3g}
+variable        mean equal vcm(fluid,x)
+variable        theory equal {self.mean():.6g}
+variable        stress equal f_walls[1]/{2 * length:.8g}    # at the walls
+variable        balance equal {self.at_wall:.6g}            # ... in the end
+thermo_style    custom step time v_mean v_theory v_stress v_balance cpuremain
+{self.ends()}"""
+
+    def figure(self, plt, thermo):
+        from . import each_frame
+        *_, (_, last) = each_frame(f"{self.name}.dump")
+        figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
+        left.plot(thermo["Time"], thermo["v_mean"], label="measured")
+        left.plot(thermo["Time"], thermo["v_theory"], "k--", label="theory, in the end")
+        left.set(xlabel=self.label("time", "s"), ylabel=self.label("mean velocity", "m/s"))
+        height = self.args.channel
+        y = last["y"][(last["y"] > 0) & (last["y"] < height)]
+        right.plot(last["vx"][(last["y"] > 0) & (last["y"] < height)], y, "o", label="measured")
+        places = [height * k / 200 for k in range(201)]
+        right.plot([self.profile(2 * place / height - 1) for place in places], places, "k-", label="theory")
+        right.set(xlabel=self.label("velocity at the end", "m/s"), ylabel=self.label("place across the channel", "m"))
+        for axes in (left, right):
+            axes.legend()
+        return figure
+
+
+class Colloid(Plan):
+    """A sphere in a fluid with thermal noise, in a periodic box."""
+
+    SPACINGS = 2.0    # in the radius
+
+    def set_length(self):
+        args = self.args
+        self.dx = args.colloid / self.SPACINGS
+        args.length, self.frequency = args.particles * self.dx, 0.0
+        self.energy = BOLTZMANN[self.units] * args.temperature
+        args.velocity = math.sqrt(self.energy / (self.real.rho * self.dx**3))    # thermal, of a particle
+
+    def set_particles(self):
+        args = self.args
+        self.rc = args.support * self.dx
+        if args.particles < 2 * args.support:
+            raise SystemExit(f"plan: a box of {args.particles} spacings is less than two support radii, {2 * args.support:g}, wide; take more --particles")
+        self.lattice = f"sc {1 / self.dx**3 if self.units == 'lj' else self.dx:.8g}"
+        self.number = args.particles**3
+        middle = (args.particles / 2,) * 3    # of the box, where a particle is none: they are at half spacings
+        self.inside = sum(math.dist((i + 0.5, j + 0.5, k + 0.5), middle) < self.SPACINGS for i, j, k in itertools.product(range(args.particles), repeat=3))
+        self.spread = args.length**2 * self.rho / (4 * math.pi**2 * self.mu)    # time in which momentum spreads through the box
+        args.time = args.time or 25 * self.spread
+
+    def set_time_step(self):
+        super().set_time_step()
+        self.dt = float(f"{min(self.dt, 0.046 / self.rate):.3g}")    # next to a body the rate is twice as large
+
+    def flow_notes(self):
+        radius, mass = self.args.colloid, self.inside * self.rho * self.dx**3
+        nu, friction = self.mu / self.rho, 6 * math.pi * radius
+        diffusion = self.energy / (friction * self.mu)
+        time, wanted = radius**2 / diffusion, math.sqrt(100 * self.energy * self.rho / friction)
+        thermal = math.sqrt(self.energy / mass)
+        return [f"colloid             radius {radius:g}, {self.inside} particles, in a box {self.args.length:.4g} wide",
+                f"Mach number         {self.thermal_mach():.2g} of the particles, sqrt(kT/m)/c0, {thermal / self.c0:.2g} of the colloid",
+                f"Reynolds number     {thermal * radius / nu:.2g} of the colloid, at its thermal velocity {thermal:.3g}",
+                f"Schmidt number      {nu / diffusion:.3g}, viscosity over diffusion; 100 with mu = {wanted:.3g}",
+                f"diffusion           {diffusion:.4g} by Stokes and Einstein; over its radius in {time:.3g}, {time / self.dt:.2g} steps",
+                f"times               momentum spreads through the box in {self.spread:.4g}"]
+
+    def scaled(self, factor):
+        return self    # the box stays small
+
+    def input(self, time=""):
+        args = self.args
+        kappa = "intrinsic" if self.kappa is None else f"{self.kappa:.6g}"
+        every = max(self.steps // 20, 10) // 10 * 10
+        middle = " ".join([f"{args.particles / 2:g}"] * 3)
+        return "".join(f"# {line}\n" for line in self.notes() + ([time] if time else [])) + f"""
+units           {self.units}
+atom_style      sph/bulk
+
+lattice         {self.lattice} origin 0.5 0.5 0.5
+region          box block 0 {args.particles} 0 {args.particles} 0 {args.particles}
+create_box      2 box
+create_atoms    1 box
+region          ball sphere {middle} {self.SPACINGS:g}
+set             region ball type 2
+set             group all mass {self.rho * self.dx**3:.8g}
+group           fluid type 1
+group           ball type 2
+
+neighbor        {self.skin():.4g} bin
+pair_style      sph/bulk kernel {args.kernel} shear {args.shear}{' limit yes' if self.zeta < 0.0 else ''} temp {args.temperature:g} 4711
+pair_coeff      * * {self.rho:.6g} {self.c0:.6g} {self.mu:.6g} {kappa} {self.rc:.6g}    # rho0 c0 mu kappa rc
+fix             1 fluid sph/bulk density rho0
+fix             2 ball rigid single
+fix             3 ball sph/wall move rigid
+
+timestep        {self.dt:.3g}
+variable        K equal mass(ball)*(vcm(ball,x)^2+vcm(ball,y)^2+vcm(ball,z)^2)/{3 * self.energy:.6g}    # over that of theory without a box
+fix             K all ave/time 10 {every // 10} {every} v_K ave running
+variable        theory equal 1.0-mass(ball)/mass(all)    # since the total momentum is zero
+variable        t equal time
+variable        x equal xcm(ball,x)                      # path, not wrapped into the box
+variable        y equal xcm(ball,y)
+variable        z equal xcm(ball,z)
+fix             path all ave/time 10 1 10 v_t v_x v_y v_z file colloid.path
+thermo_style    custom step time f_K v_theory cpuremain
+thermo          {every}
+dump            1 all custom {every} {self.name}.dump id type x y z vx vy vz
+run             {self.steps}
 """
+
+    def figure(self, plt, thermo):
+        figure, axes = plt.subplots()
+        axes.plot(thermo["Time"][1:], thermo["f_K"][1:], "o-", label="mean since the start")
+        axes.plot(thermo["Time"][1:], thermo["v_theory"][1:], "k--", label="theory")
+        axes.set(xlabel=self.label("time", "s"), ylabel="kinetic energy of the colloid over 3 kT/2", ylim=(0, None))
+        axes.legend()
+        return figure
 
 
 def measured_time(plan, lmp):
@@ -505,9 +761,9 @@ def measured_time(plan, lmp):
     small = plan.scaled((most / plan.number) ** (1 / plan.dim)) if plan.number > most else plan
     steps = 10 if small.viscous else max(10, min(200, 400000 // small.number))
     with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "in.plan").write_text(small.input())
+        Path(folder, "in.plan").write_text(re.sub(r"^run .*", f"run {steps}", small.input(), flags=re.MULTILINE))
         try:
-            done = subprocess.run([str(lmp), "-in", "in.plan", "-var", "steps", str(steps), "-nocite", "-log", "none"], cwd=folder,
+            done = subprocess.run([str(lmp), "-in", "in.plan", "-nocite", "-log", "none"], cwd=folder,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors="replace",
                                   check=False, timeout=60, env={**os.environ, "OMP_NUM_THREADS": "1"})
         except subprocess.TimeoutExpired:
@@ -527,15 +783,22 @@ def duration(seconds):
     return f"{seconds:.2g} seconds"
 
 
+def number_of(text):
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"must be a number without a unit, such as 40e3, not {text}") from None
+
+
 def positive(text):
-    number = float(text)
+    number = number_of(text)
     if not (0.0 < number < math.inf):
         raise argparse.ArgumentTypeError(f"must be > 0, not {text}")
     return number
 
 
 def not_negative(text):
-    number = float(text)
+    number = number_of(text)
     if not (0.0 <= number < math.inf):
         raise argparse.ArgumentTypeError(f"must be >= 0, not {text}")
     return number
@@ -560,17 +823,22 @@ def arguments(argv):
     parser.add_argument("--column", type=positive, metavar="H", help="a column of this height at one end of a tank, with a free surface: a dam break")
     parser.add_argument("--width", type=positive, help="of the column (default: twice the height)")
     parser.add_argument("--tank", type=positive, help=f"length of the tank (default: {TANK} of the height); as long as the column: a tank at rest")
+    parser.add_argument("--colloid", type=positive, metavar="R", help="a sphere of this radius in a fluid with noise of --temperature, in three dimensions")
     parser.add_argument("--gravity", type=positive, help="(default: 9.81, or 1 with units lj)")
+    parser.add_argument("--channel", type=positive, metavar="H", help="a channel of this height between two walls, with the largest velocity --velocity")
+    parser.add_argument("--yield", type=positive, metavar="TAU", dest="yield_stress", help="yield stress of the fluid in a channel, a Bingham fluid")
     parser.add_argument("--relax", action="store_true", help="bulk viscosity that relaxes (default: for sound above the frequency up to which a constant holds)")
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
     parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
-    parser.add_argument("--particles", type=int, default=50, metavar="N", help="across the length (default: %(default)s)")
+    parser.add_argument("--particles", type=int, metavar="N", help="across the length (default: 50, with --colloid 12)")
     parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 3 with mg/fr2 and wendland/c2, else 4, for sound 6)")
     parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
     parser.add_argument("--shear", choices=SHEAR, metavar="FORM", help="form of the shear term (default: mg/fr2; mg with noise, a free surface, or sound)")
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
+    parser.add_argument("--run", action="store_true", help="write the input in.NAME, run it, and keep log.NAME; NAME: sound, column, channel, colloid, or flow")
+    parser.add_argument("--plot", action="store_true", help="... and draw what is measured beside theory: NAME.png")
     parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp", help="LAMMPS that is timed (default: build/lmp)")
     args = parser.parse_args(argv)
     if bool(args.fluid) == (args.rho is not None) or (args.fluid and (args.mu, args.kappa) != (None, None)):
@@ -579,12 +847,16 @@ def arguments(argv):
         parser.error("--fluid is in SI units: leave --units out")
     if not args.fluid and args.mu is None:
         parser.error("--mu is missing")
-    if args.column:
-        others = {"--length": args.length, "--velocity": args.velocity, "--wavelength": args.wavelength, "--frequency": args.frequency,
-                  "--temperature": args.temperature, "--relax": args.relax}
+    kind = "--column" if args.column else "--channel" if args.channel else "--colloid" if args.colloid else ""
+    if kind:
+        others = {"--length": args.length, "--wavelength": args.wavelength, "--frequency": args.frequency, "--relax": args.relax}
+        others |= {"--velocity": args.velocity if kind != "--channel" else None, "--channel": args.channel if kind != "--channel" else None,
+                   "--colloid": args.colloid if kind != "--colloid" else None, "--temperature": args.temperature if kind != "--colloid" else None,
+                   "--dim 3": kind == "--channel" and args.dim == 3}
         for word, value in others.items():
             if value:
-                parser.error(f"{word} is not for --column")
+                parser.error(f"{word} is not for {kind}")
+    if args.column:
         if args.shear in ("morris", "espanol"):
             parser.error(f"--shear {args.shear} is not for --column: it exerts a torque at a free surface")
         if args.c == "real":
@@ -595,19 +867,42 @@ def arguments(argv):
             parser.error("--tank is not longer than the column is wide, 2 times --column: give --width, for water at rest that of --tank")
     elif args.width or args.tank or args.gravity:
         parser.error("--width, --tank, and --gravity are for --column")
+    elif args.channel:
+        if not args.velocity:
+            parser.error("--channel needs --velocity, the largest one in the middle")
+        if not args.mu and not args.fluid:
+            parser.error("--channel needs a fluid with a shear viscosity")
+        if args.c == "real":
+            parser.error("--c real is not for --channel, whose flow is nearly incompressible")
+        if args.yield_stress and args.shear not in (None, "mg", "mg/fr2"):
+            parser.error(f"--yield is for --shear mg and mg/fr2, not {args.shear}")
+    elif args.colloid:
+        args.dim = 3
+        if not args.temperature or args.mu == 0.0:
+            parser.error("--colloid needs --temperature above 0, and a fluid with a shear viscosity")
+        if args.c == "real":
+            parser.error("--c real is not for --colloid, whose fluid is nearly incompressible")
     elif bool(args.wavelength) + bool(args.frequency) + (args.length is not None) != 1 or args.length and not args.velocity:
-        parser.error("give --length and --velocity, or --wavelength, or --frequency, or --column")
+        parser.error("give --length and --velocity, or --wavelength, or --frequency, or --column, or --channel, or --colloid")
+    if args.yield_stress and not args.channel:
+        parser.error("--yield is for --channel")
+    if args.plot and not (kind or args.wavelength or args.frequency or args.c == "real"):
+        parser.error("--plot draws what a theory tells: it is for sound, --column, --channel, and --colloid")
     args.fraction = args.fraction or (0.95 if args.column else 0.5)
-    if args.particles < 1:
+    if args.particles is not None and args.particles < 1:
         parser.error("--particles must be > 0")
     if args.fraction > 1.0:
         parser.error("--fraction must not be above 1")
     return args
 
 
+def plan_of(args):
+    return (Column if args.column else Channel if args.channel else Colloid if args.colloid else Plan)(args)
+
+
 def printed(args):
     try:
-        plan = (Column if args.column else Plan)(args)
+        plan = plan_of(args)
         numbers = plan.input()
     except (ArithmeticError, ValueError):
         numbers = "nan"
@@ -621,13 +916,40 @@ def printed(args):
         each = measured_time(plan, plan.args.lmp.resolve())
         if each is not None:
             time = f"run time            about {duration(each * plan.number * plan.steps)} of one core, from a short run on this machine"
-    return plan.input(time)
+    return plan.input(time), plan
+
+
+def run(text, plan):
+    """writes the input in the working folder, runs it, and draws its figure"""
+    name, lmp = plan.name, plan.args.lmp
+    if not lmp.exists():
+        raise SystemExit(f"plan: --run needs LAMMPS, and there is none at {lmp}; ./sphd build makes it")
+    if plan.args.plot:
+        from . import pyplot, save, thermo
+        plt = pyplot()    # what is missing is missed before the run
+    file = Path(f"in.{name}")
+    if file.exists() and file.read_text(encoding="utf-8").split("\n\n", 1)[1:] != text.split("\n\n", 1)[1:]:
+        raise SystemExit(f"plan: {file} is there already and is another input; rename it")
+    file.write_text(text, encoding="utf-8")
+    print(text.partition("\n\n")[0], flush=True)
+    if subprocess.run([str(lmp.resolve()), "-in", str(file), "-log", f"log.{name}", "-nocite"], stdin=subprocess.DEVNULL, check=False).returncode:
+        raise SystemExit(f"plan: LAMMPS has stopped with an error; the input is {file}")
+    written = [str(file), f"log.{name}", f"{name}.dump"]
+    if plan.args.plot:
+        (table,) = thermo(Path(f"log.{name}").read_text(encoding="utf-8", errors="replace"))
+        written.append(str(save(plan.figure(plt, table), f"{name}.png")))
+    print(f"plan: wrote {', '.join(written)}")
 
 
 def main(argv=None):
     args = arguments(argv)
+    args.run = args.run or args.plot
     with program("plan"):
-        print(printed(args), end="")
+        text, plan = printed(args)
+        if args.run:
+            run(text, plan)
+        else:
+            print(text, end="")
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@
 #include "memory.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 
 #include <algorithm>
@@ -117,21 +118,25 @@ void AtomVecSPHBulk::add_columns(int narg, char **arg)
     fields_data_atom.insert(fields_data_atom.end() - 1, name);
   };
   for (int iarg = 0; iarg < narg; iarg++)
-    if (strcmp(arg[iarg], "rho") == 0) density_in_files = true;
+    if (field_name(arg[iarg]) == "rho") density_in_files = true;
   if (density_in_files) insert("rho");
   for (int iarg = 0; iarg < narg; iarg++) {
-    const std::string keyword = arg[iarg];
+    const std::string keyword = field_name(arg[iarg]);
     if (keyword == "rho") continue;
     const auto owner =
         std::find_if(state_table().begin(), state_table().end(), [&](const StateInfo &one) {
           return one.has_column() && keyword == one.keyword && !room(one);
         });
-    if (owner == state_table().end())
-      error->all(FLERR, "Unknown atom_style {} keyword: {}", style, keyword);
+    if (owner == state_table().end()) {
+      std::vector<std::string> known = {"rho"};
+      for (const StateInfo &one : state_table())
+        if (one.has_column()) known.emplace_back(one.keyword);
+      unknown_word(lmp, arg[iarg], fmt::format("Unknown atom_style {} keyword: {}", style, keyword),
+                   known);
+    }
     int n = 1;
     if (owner->most > 1) {
-      if (++iarg == narg)
-        utils::missing_cmd_args(FLERR, "atom_style " + style + " " + keyword, error);
+      demand_words(lmp, "atom_style " + style + " " + keyword, narg - ++iarg, "N");
       n = utils::inumeric(FLERR, arg[iarg], false, lmp);
       if (n < 1 || n > owner->most)
         error->all(FLERR, "Atom_style {} {} must be 1 to {}, not {}", style, keyword, owner->most,
@@ -383,7 +388,7 @@ int AtomVecSPHBulk::property_atom(const std::string &name)
 {
   const int n = has_spins ? NPROPERTY : INERTIA;
   for (int index = 0; index < n; index++)
-    if (name == PROPERTY[index]) return index;
+    if (field_name(name) == PROPERTY[index]) return index;
   for (int slot : slots)
     if (name == state_name(slot)) return NPROPERTY + slot;
   return -1;

@@ -23,7 +23,7 @@
 #include "group.h"
 #include "math_extra.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_value.h"
+#include "sph_dissipation_keywords.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -39,7 +39,7 @@ ComputeSPHAngmom::ComputeSPHAngmom(LAMMPS *lmp, int narg, char **arg) : Compute(
     error->all(FLERR, "Compute {} requires atom style sph/micropolar", style);
 
   for (Keywords key(lmp, fmt::format("Compute {}", style), 3, narg, arg); key.next();)
-    if (key.is("point", 3)) {
+    if (key.is("point", "x y z")) {
       fixed_point = 1;
       for (int d = 0; d < 3; d++) point[d] = key.number(d);
     }

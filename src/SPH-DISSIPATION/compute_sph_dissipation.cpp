@@ -23,6 +23,7 @@
 #include "force.h"
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_stages.h"
 #include "update.h"
 
@@ -34,7 +35,7 @@ using namespace SPHDissipation;
 ComputeSPHDissipation::ComputeSPHDissipation(LAMMPS *lmp, int narg, char **arg) :
     Compute(lmp, narg, arg)
 {
-  if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
+  Keywords(lmp, fmt::format("Compute {}", style), 3, narg, arg).end_here();
   if (igroup != 0) error->all(FLERR, "Compute {} must use group all", style);
 
   scalar_flag = vector_flag = peratom_flag = 1;

@@ -24,6 +24,7 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -35,7 +36,7 @@ enum { KINETIC, INTERNAL, ROTATIONAL, STATES, PAIRS, NENERGY };    // states: a 
 
 ComputeSPHEnergy::ComputeSPHEnergy(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
-  if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
+  Keywords(lmp, fmt::format("Compute {}", style), 3, narg, arg).end_here();
   if (!atom->esph_flag || !atom->rmass_flag)
     error->all(FLERR, "Compute {} requires atom style sph/bulk or sph/micropolar", style);
 

@@ -20,7 +20,7 @@
 #include "domain.h"
 #include "error.h"
 #include "memory.h"
-#include "sph_dissipation_value.h"
+#include "sph_dissipation_keywords.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;

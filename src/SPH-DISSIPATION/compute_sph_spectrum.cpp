@@ -26,8 +26,8 @@
 #include "memory.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_value.h"
 #include "update.h"
 
 #include <algorithm>

@@ -24,6 +24,7 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
 
@@ -39,7 +40,7 @@ enum { SPIN = 3, INTERNAL, NVALUE };    // after the three directions
 
 ComputeSPHTemp::ComputeSPHTemp(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg, arg)
 {
-  if (narg > 3) error->all(FLERR, "Unknown compute {} keyword: {}", style, arg[3]);
+  Keywords(lmp, fmt::format("Compute {}", style), 3, narg, arg).end_here();
 
   scalar_flag = vector_flag = 1;
   size_vector = NVALUE;

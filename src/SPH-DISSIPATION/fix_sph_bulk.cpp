@@ -31,6 +31,7 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_rows.h"
@@ -164,7 +165,7 @@ void FixSPHBulk::read_keywords(int narg, char **arg)
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
     if (key.is("density"))
       density_flag = (key.choice({"rho0", "keep"}) == 0);
-    else if (spins && key.is("inertia", 2)) {
+    else if (spins && key.is("inertia", "C I_micro")) {
       inertia_flag = 1;
       factor = key.number(0);
       offset = key.number(1);
@@ -193,7 +194,7 @@ void FixSPHBulk::read_keywords(int narg, char **arg)
       implicit_only = key.name();
       viscous->tolerance = key.number();
       key.demand(viscous->tolerance > 0.0 && viscous->tolerance < 1.0, "> 0 and < 1");
-    } else if (key.is("iterations", 2)) {
+    } else if (key.is("iterations", "N warn|error")) {
       implicit_only = key.name();
       viscous->iterations = key.whole_number();
       key.demand(viscous->iterations >= 1, ">= 1");
@@ -362,7 +363,7 @@ double FixSPHBulk::compute_vector(int n)
 }
 
 /* ----------------------------------------------------------------------
-   Stop if a particle is in the groups of two such fixes: it would move twice in every step.
+   Stop if a particle is in the groups of two such fixes: it would move twice in every step; warn of fixes of LAMMPS.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_integrated_once()
@@ -370,15 +371,23 @@ void FixSPHBulk::check_integrated_once()
   const auto &fixes = modify->get_fix_list();
   for (std::size_t k = 0; k < fixes.size(); k++)
     for (std::size_t l = k + 1; l < fixes.size(); l++) {
-      if (!dynamic_cast<FixSPHBulk *>(fixes[k]) || !dynamic_cast<FixSPHBulk *>(fixes[l])) continue;
+      const bool ours[] = {dynamic_cast<FixSPHBulk *>(fixes[k]) != nullptr,
+                           dynamic_cast<FixSPHBulk *>(fixes[l]) != nullptr};
+      if (!(ours[0] || ours[1]) || !fixes[k]->time_integrate || !fixes[l]->time_integrate) continue;
       const bigint all = count_particles(lmp, [&](int i) {
         return (atom->mask[i] & fixes[k]->groupbit) && (atom->mask[i] & fixes[l]->groupbit);
       });
-      if (all)
+      if (all && ours[0] && ours[1])
         error->all(FLERR,
                    "Fixes {} and {} both integrate {} particles: a particle must be in the group "
                    "of one fix {} only",
                    fixes[k]->id, fixes[l]->id, all, style);
+      const Fix *const other = fixes[ours[0] ? l : k];
+      if (all && comm->me == 0 && !utils::strmatch(other->style, "^sph/"))    // they check it
+        error->warning(FLERR,
+                       "Fix {} {} also integrates {} particles of fix {}, which thus move twice in "
+                       "a step; use fix {} alone",
+                       other->id, other->style, all, style, style);
     }
 }
 

@@ -26,8 +26,8 @@
 #include "pair_sph_bulk.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_steps.h"
-#include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
 #include "update.h"
 
@@ -54,7 +54,7 @@ static double part_of(double part, double time)
 FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), part{SPHDissipation::ACOUSTIC, 1.0, 0.25}, largest(UNLIMITED_STEP)
 {
-  if (narg < 4) utils::missing_cmd_args(FLERR, "fix sph/dt", error);
+  demand_words(lmp, "fix sph/dt", narg, "ID group-ID sph/dt N");
   if (igroup != 0) error->all(FLERR, "Fix {} must use group all", style);
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery < 1) error->all(FLERR, "Fix {} N must be >= 1, not {}", style, arg[3]);

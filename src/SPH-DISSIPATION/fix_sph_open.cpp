@@ -32,6 +32,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_open.h"
 #include "sph_dissipation_open_stage.h"
@@ -82,7 +83,8 @@ static const char cite_open[] =
 
 FixSPHOpen::FixSPHOpen(LAMMPS *lmp, int narg, char **arg) : Fix(lmp, narg, arg), totals(NVECTOR)
 {
-  if (narg < 11) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
+  demand_words(lmp, fmt::format("fix {}", style), narg,
+               fmt::format("ID group-ID {} fluid-ID x y z nx ny nz length", style));
   const std::string owner = fmt::format("Fix {}", style);
   plane.reset(new OpenPlane(lmp, owner));
   values.reset(new OpenValues(lmp, owner));

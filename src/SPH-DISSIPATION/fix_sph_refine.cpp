@@ -33,6 +33,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine.h"
 #include "sph_dissipation_value.h"
@@ -67,7 +68,8 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
     Fix(lmp, narg, arg), target(new Value), split_above(SPLIT), merge_below(MERGE),
     totals(RefineBalance::NVALUE)
 {
-  if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
+  demand_words(lmp, fmt::format("fix {}", style), narg,
+               fmt::format("ID group-ID {} N volume|spacing target", style));
   nevery = utils::inumeric(FLERR, arg[3], false, lmp);
   if (nevery <= 0) error->all(FLERR, "Fix {} N must be > 0, not {}", style, arg[3]);
   if (strcmp(arg[4], "volume") != 0 && strcmp(arg[4], "spacing") != 0)

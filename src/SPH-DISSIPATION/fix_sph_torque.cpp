@@ -26,6 +26,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_value.h"
 #include "update.h"
 
@@ -42,8 +43,9 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
 {
   if (!Fields::with_spins(atom))
     error->all(FLERR, "Fix {} requires atom style sph/micropolar", style);
-  if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("fix {}", style), error);
-  if (narg > 6) error->all(FLERR, "Unknown fix {} keyword: {}", style, arg[6]);
+  demand_words(lmp, fmt::format("fix {}", style), narg,
+               fmt::format("ID group-ID {} Tx Ty Tz", style));
+  Keywords(lmp, fmt::format("Fix {}", style), 6, narg, arg).end_here();
 
   for (int d = 0; d < 3; d++) value[d].set(lmp, arg[3 + d]);
 

@@ -35,6 +35,7 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_integrate.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
 #include "sph_dissipation_viscous.h"
@@ -79,8 +80,8 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
 {
   std::string others;    // first keyword that bodies do not have
   for (Keywords key(lmp, fmt::format("Fix {}", style), 3, narg, arg); key.next();) {
-    if (key.is("velocity", 3)) motion->set_velocity(key.words());
-    if (key.is("rotate", 7)) motion->set_rotation(key.words());
+    if (key.is("velocity", "vx vy vz")) motion->set_velocity(key.words());
+    if (key.is("rotate", "px py pz ax ay az omega")) motion->set_rotation(key.words());
     for (const char *one : {"velocity", "rotate", "slip", "spin"})
       if (key.name() == one && others.empty()) others = one;
     if (key.is("move")) {
@@ -96,7 +97,7 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     if (key.is("spin")) {
       condition->spin = static_cast<WallSpin>(key.choice({"zero", "rate", "free"}));
       if (condition->spin == WallSpin::RATE) {
-        key.more(1);
+        key.more("alpha");
         condition->alpha = key.number(1);
       }
     }
@@ -104,11 +105,11 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
       heat = static_cast<WallHeat>(key.choice({"adiabatic", "temp", "flux"}));
       *heat_value = Value();
       if (gives_heat()) {
-        key.more(1);
+        key.more(heat == WallHeat::TEMPERATURE ? "T" : "q");
         heat_value->set(lmp, key.word(1));
       }
     }
-    if (key.is("gravity", 3))
+    if (key.is("gravity", "gx gy gz"))
       for (int d = 0; d < 3; d++) {
         gravity[d] = Value();
         gravity[d].set(lmp, key.word(d));

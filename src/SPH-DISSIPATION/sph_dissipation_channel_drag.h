@@ -34,7 +34,8 @@ namespace SPHDissipation {
     static constexpr bool OPTIONAL = true;
     enum { B, UX, UY, UZ };
     static constexpr int NTYPE = 4;
-    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {{{"drag", 4, 0, NOTHING}}};
+    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
+        {{"drag", "b Ux Uy Uz", 4, 0, NOTHING}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"drag", B}}};
 
     SPH_FUNCTION static Drag drag(const double *type)

@@ -43,8 +43,8 @@ namespace SPHDissipation {
     enum { CONDUCTIVITY, GAMMA, T0 };    // GAMMA and T0 belong to the equation of state
     static constexpr int NTYPE = 3;
     static constexpr std::array<TypeKeyword, 2> TYPE_KEYWORDS = {
-        {{"conductivity", 1, 0, HEAT_CAPACITY},
-         {"gruneisen", 2, 0, HEAT_CAPACITY | NOT_EOS_IDEAL | TENSION}}};
+        {{"conductivity", "k", 1, 0, HEAT_CAPACITY},
+         {"gruneisen", "Gamma T0", 2, 0, HEAT_CAPACITY | NOT_EOS_IDEAL | TENSION}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {
         {{"conductivity", CONDUCTIVITY}}};
 

@@ -68,7 +68,7 @@ namespace SPHDissipation {
     enum { KAPPA_R, TAU, GROUP };     // numbers of a process
     static constexpr int NTYPE = GROUP * MOST;
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
-        {{"relax", NTYPE, GROUP, NOTHING}}};
+        {{"relax", "kappa_r tau", NTYPE, GROUP, NOTHING}}};
     static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
         {{"kappa_r", KAPPA_R}, {"tau", TAU}}};
     static constexpr const char *FIELD = "rho_relaxed", *KEYWORD = "relax";
@@ -150,7 +150,8 @@ namespace SPHDissipation {
     enum { CVIB, TAU };
     static constexpr int NTYPE = 2;
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
-        {{"vibration", NTYPE, NTYPE, HEAT_CAPACITY | NO_NOISE | EOS_IDEAL | NO_OPEN_ENDS}}};
+        {{"vibration", "cvib tau_v", NTYPE, NTYPE,
+          HEAT_CAPACITY | NO_NOISE | EOS_IDEAL | NO_OPEN_ENDS}}};
 
     static constexpr const char *FIELD = "tvib";
     using Room = RelaxChannel;

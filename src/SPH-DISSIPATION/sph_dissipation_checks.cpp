@@ -162,9 +162,11 @@ void FluidChecks::styles() const
   if (modify->get_fix_by_style("^" + style).empty())
     error->all(FLERR, Error::NOLASTLINE, "Pair style {} requires fix {}", style, style);
   if (force->mvv2e != 1.0)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair style {} requires units in which mass * velocity^2 is an energy, not units {}",
-               style, update->unit_style);
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair style {} requires units in which mass * velocity^2 is an energy: use units lj, "
+        "si, cgs, micro, or nano, not {}",
+        style, update->unit_style);
 
   // the number density, forces, and walls of one fluid do not include another one
 
@@ -284,6 +286,19 @@ void FluidChecks::support(int dim, double support) const
                "pair style {}",
                comm->cutghostuser, support, style);
   if (dim == 1) line_of_particles(support);
+}
+
+/* ---------------------------------------------------------------------- */
+
+void FluidChecks::skin(int dim, double support) const
+{
+  const double skin = neighbor->skin;
+  if (skin > support && comm->me == 0)
+    error->warning(
+        FLERR,
+        "Pair style {}: the skin of the neighbor list, {:.3g}, is {:.2g} support radii, "
+        "with which the list is {:.2g} times as long as without; use neighbor {:.1g} bin",
+        style, skin, skin / support, pow(1.0 + skin / support, dim), 0.1 * support);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -661,34 +676,4 @@ bigint FluidChecks::places(const Engine &engine, double support, bigint before) 
         "force on each other and stay together; use delete_atoms overlap where regions overlap",
         style, all, one);
   return all;
-}
-
-/* ----------------------------------------------------------------------
-   Warn of too few neighbors: single particles may be alone, but a particle in a fluid has more than two neighbors along each
-   axis.
-------------------------------------------------------------------------- */
-
-void FluidChecks::neighbors(const Engine &engine, int boundary_bits, int dim, double support) const
-{
-  auto is_fluid = [&](int i) {
-    return !model.coeffs[atom->type[i]].other && !(atom->mask[i] & boundary_bits);
-  };
-
-  // the owner of one of the particles has the pair; with newton off, the owners of both
-
-  bigint number[2] = {0, 0}, all[2];    // of fluid particles, of their neighbors
-  for (int i = 0; i < atom->nlocal; i++) number[0] += is_fluid(i);
-  const bool ghosts = force->newton_pair;
-  engine.visit_pairs([&](int i, int j, bigint) {
-    number[1] += is_fluid(i);
-    if (ghosts || j < atom->nlocal) number[1] += is_fluid(j);
-  });
-  MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-
-  const int enough = 2 * dim;
-  if (all[0] > enough && all[1] < enough * all[0] && comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style {}: particles have only {:.2g} neighbors on average within the "
-                   "support radius {:g}; use an rc of three to four particle distances",
-                   style, static_cast<double>(all[1]) / static_cast<double>(all[0]), support);
 }

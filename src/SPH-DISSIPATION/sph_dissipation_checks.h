@@ -85,6 +85,9 @@ namespace SPHDissipation {
     // Check that the support radius fits into the ghost cutoff and, for dim = 1, into the box around the line of particles
     void support(int dim, double support) const;
 
+    // Warn of a skin of the neighbor list that exceeds the support radius
+    void skin(int dim, double support) const;
+
     // Check that spins of the fluid are along z in 2d
     void spins() const;
 
@@ -116,10 +119,9 @@ namespace SPHDissipation {
     // Warn of particles of one fluid with different masses, if volume number gives them equal volumes
     void sizes(int boundary_bits) const;
 
-    // Warn of a fluid that exerts no forces: no internal energy with an equation of state that needs it, or no neighbors
-    // inside the support.  Particles with one of boundary_bits in their mask are not fluid.
+    // Warn of a fluid without the internal energy that its equation of state needs.  Particles with one of boundary_bits in
+    // their mask are not fluid.
     void energies(const std::function<double(int i)> &heat, int boundary_bits) const;
-    void neighbors(const Engine &, int boundary_bits, int dim, double support) const;
 
     // Warn of pairs of particles, of fluid or of fluid and walls, in the same place if they are more than before; return
     // their number

@@ -67,6 +67,12 @@ namespace SPHDissipation {
     int room(const StateInfo &) const;    // number of states of a channel with room
     static std::string state_name(int slot);
 
+    // Return the name of a field for that of the set command, sph/rho or sph/e; other names as they are
+    static std::string field_name(const std::string &name)
+    {
+      return (name == "sph/rho") ? "rho" : (name == "sph/e") ? "esph" : name;
+    }
+
     // Density continuity.  rho_sum: the sum in rho at the last forces, negative for bodies, see ParticleRows::add_offset();
     // 0: no sum yet (a new particle also has rho = 0, which stands for rho0).  Last evaluation of the diffusion: rates of
     // volume and internal energy, filled part of the support (1 inside of the fluid); rate of the volume before

@@ -188,6 +188,7 @@ void Fluid::check_setup()
   check.fluid_lists();
   check.room();
   check.support(dim, support);
+  if (!announced) check.skin(dim, support);
   if (spins) check.spins();
 }
 
@@ -888,6 +889,7 @@ void Fluid::report()
     check.state_times();
     check.surface();
     state.warn_of_density(style);
+    state.warn_of_support(style);
     moving = 0.0;
     check_elasticity(state);
   }
@@ -903,7 +905,6 @@ void Fluid::report()
     return states.thermal_energy(i);
   };
   check.energies(heat, not_fluid());
-  check.neighbors(*engine, not_fluid(), dim, support);
 }
 
 /* ----------------------------------------------------------------------

@@ -16,16 +16,19 @@
 #include "comm.h"
 #include "error.h"
 #include "lammps.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_settings.h"
 #include "tokenizer.h"
 #include "update.h"
 #include "utils.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <sstream>
 #include <vector>
 
 using namespace LAMMPS_NS;
@@ -36,19 +39,45 @@ using Words = std::vector<std::string>;
 static constexpr double GAS_CONSTANT = 8.31446261815324;    // J/(mol K), exact since 2019
 
 /* ----------------------------------------------------------------------
-   Read one line of any length; return false at the end of the file.  (LAMMPS's readers cut long lines and do not number
-   them.)
+   Return the text of a file of fluids on all ranks; rank 0 reads it.  (LAMMPS's readers cut long lines.)
 ------------------------------------------------------------------------- */
 
-static bool read_line(FILE *fp, std::string &line)
+static std::string text_of(LAMMPS *lmp, const std::string &file)
 {
-  char part[1024];
-  line.clear();
-  while (fgets(part, sizeof(part), fp)) {
-    line += part;
-    if (line.back() == '\n') return true;
+  enum { READ, NO_FILE, FAILED };
+  int state = READ;
+  std::string text, reason;
+  if (lmp->comm->me == 0) {
+    FILE *fp = utils::open_potential(file, lmp, nullptr);
+#ifdef SPH_DISSIPATION_POTENTIALS
+    const int no_file = errno;
+    if (!fp) fp = fopen((SPH_DISSIPATION_POTENTIALS "/" + file).c_str(), "rb");
+    if (!fp) errno = no_file;
+#endif
+    if (fp) {
+      char part[1024];
+      for (std::size_t n; (n = fread(part, 1, sizeof(part), fp)) > 0;) text.append(part, n);
+      if (ferror(fp)) state = FAILED;
+    } else
+      state = NO_FILE;
+    reason = utils::getsyserror();
+    if (fp) fclose(fp);
   }
-  return !line.empty();
+  MPI_Bcast(&state, 1, MPI_INT, 0, lmp->world);
+  if (state == NO_FILE)
+    lmp->error->all(
+        FLERR,
+        "Cannot open file of fluids {}, which is looked for in the current folder and in "
+        "those of the environment variable LAMMPS_POTENTIALS: {}; for a file of this package: "
+        "export LAMMPS_POTENTIALS=FOLDER/potentials, with the folder of the package",
+        file, reason);
+  if (state == FAILED) lmp->error->all(FLERR, "Cannot read file of fluids {}: {}", file, reason);
+
+  bigint size = static_cast<bigint>(text.size());
+  MPI_Bcast(&size, 1, MPI_LMP_BIGINT, 0, lmp->world);
+  text.resize(size);
+  MPI_Bcast(&text[0], static_cast<int>(size), MPI_CHAR, 0, lmp->world);
+  return text;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -67,17 +96,17 @@ static Words named_columns(LAMMPS *lmp, const std::string &where, const Words &w
   Error *error = lmp->error;
   const Words columns(words.begin() + 1, words.end());
   if (columns.empty() || columns[0] != "name")
-    error->one(FLERR, "{}: the first column must be name", where);
+    error->all(FLERR, "{}: the first column must be name", where);
   Words needed = {"temperature", "pressure", "M", "gamma", "mu", "kappa"};
   if (contains(columns, "rho")) needed = {"rho", "c", "mu", "kappa"};
   for (const auto &column : columns) {
     if (std::count(columns.begin(), columns.end(), column) > 1)
-      error->one(FLERR, "{}: there are two columns {}", where, column);
+      error->all(FLERR, "{}: there are two columns {}", where, column);
     if (utils::strmatch(column, "^kappa_r\\d+$")) needed.push_back("tau" + column.substr(7));
     if (utils::strmatch(column, "^tau\\d+$")) needed.push_back("kappa_r" + column.substr(3));
   }
   for (const auto &column : needed)
-    if (!contains(columns, column)) error->one(FLERR, "{}: there is no column {}", where, column);
+    if (!contains(columns, column)) error->all(FLERR, "{}: there is no column {}", where, column);
   return columns;
 }
 
@@ -90,7 +119,7 @@ static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Word
 {
   Error *error = lmp->error;
   if (words.size() != columns.size())
-    error->one(FLERR, "{}: a fluid has {} columns ({}), not {}", where, columns.size(),
+    error->all(FLERR, "{}: a fluid has {} columns ({}), not {}", where, columns.size(),
                utils::join_words(columns, " "), words.size());
 
   std::map<std::string, double> value;
@@ -100,11 +129,11 @@ static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Word
     value[columns[k]] = utils::is_double(words[k]) ? strtod(words[k].c_str(), nullptr) : NAN;
     text[columns[k]] = words[k];
     if (!none && !std::isfinite(value[columns[k]]))
-      error->one(FLERR, "{}: '{}' is not a number", where, words[k]);
+      error->all(FLERR, "{}: '{}' is not a number", where, words[k]);
   }
   auto positive = [&](const char *column) {
     if (!(value[column] > 0.0))
-      error->one(FLERR, "{}: {} must be > 0, not {}", where, column, text[column]);
+      error->all(FLERR, "{}: {} must be > 0, not {}", where, column, text[column]);
     return value[column];
   };
 
@@ -115,7 +144,7 @@ static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Word
   } else {
     // ideal gas: p = rho R T/M, c^2 = gamma p/rho
     if (strcmp(lmp->update->unit_style, "si") != 0)
-      error->one(FLERR, "{}: a gas without a column rho needs units si", where);
+      error->all(FLERR, "{}: a gas without a column rho needs units si", where);
     const double p = positive("pressure");
     fluid.rho = p * positive("M") / (GAS_CONSTANT * positive("temperature"));
     fluid.c = std::sqrt(positive("gamma") * p / fluid.rho);
@@ -123,7 +152,7 @@ static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Word
   fluid.mu = value["mu"];
   fluid.kappa = value["kappa"];
   if (const char *violated = inadmissible(fluid.mu, fluid.kappa))
-    error->one(FLERR, "{}: {}, not mu = {} kappa = {}", where, violated, text["mu"], text["kappa"]);
+    error->all(FLERR, "{}: {}, not mu = {} kappa = {}", where, violated, text["mu"], text["kappa"]);
 
   for (const auto &column : columns) {
     if (!utils::strmatch(column, "^kappa_r\\d+$")) continue;
@@ -134,58 +163,43 @@ static FluidLine fluid_of_line(LAMMPS *lmp, const std::string &where, const Word
   return fluid;
 }
 
-/* ---------------------------------------------------------------------- */
+/* ----------------------------------------------------------------------
+   Return the fluid of this name, or the first one whose name differs in upper and lower case only.
+------------------------------------------------------------------------- */
 
 FluidLine SPHDissipation::read_fluid(LAMMPS *lmp, const std::string &file, const std::string &name)
 {
   Error *error = lmp->error;
-  FluidLine fluid = {};
-
-  if (lmp->comm->me == 0) {
-    FILE *fp = utils::open_potential(file, lmp, nullptr);
-    if (!fp)
-      error->one(
-          FLERR,
-          "Cannot open file of fluids {}, which is looked for in the current folder and in "
-          "those of the environment variable LAMMPS_POTENTIALS: {}; for a file of this package: "
-          "export LAMMPS_POTENTIALS=FOLDER/potentials, with the folder of the package",
-          file, utils::getsyserror());
-
-    std::string line;
-    int number = 0;
-    std::map<std::string, int> line_of;
-    std::string known;
-    Words columns = {"name", "temperature", "rho", "c", "mu", "kappa"};
-    while (read_line(fp, line)) {
-      number++;
-      const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
-      if (words.empty()) continue;
-      const std::string where = fmt::format("{}:{}", file, number);
-      if (words[0] == "columns") {
-        columns = named_columns(lmp, where, words);
-        continue;
-      }
-      const FluidLine one = fluid_of_line(lmp, where, columns, words);
-      if (line_of.count(words[0]))
-        error->one(FLERR, "{}: fluid {} stands already in line {}", where, words[0],
-                   line_of[words[0]]);
-      line_of[words[0]] = number;
-      known += " " + words[0];
-      if (words[0] == name) fluid = one;
+  std::istringstream text(text_of(lmp, file));
+  std::string line;
+  int number = 0;
+  std::map<std::string, int> line_of;
+  Words known, columns = {"name", "temperature", "rho", "c", "mu", "kappa"};
+  FluidLine exact = {}, in_any_case = {};
+  bool found = false;
+  while (std::getline(text, line)) {
+    number++;
+    const auto words = Tokenizer(utils::trim_comment(line)).as_vector();
+    if (words.empty()) continue;
+    const std::string where = fmt::format("{}:{}", file, number);
+    if (words[0] == "columns") {
+      columns = named_columns(lmp, where, words);
+      continue;
     }
-    if (ferror(fp))
-      error->one(FLERR, "Cannot read file of fluids {}: {}", file, utils::getsyserror());
-    fclose(fp);
-    if (known.empty()) error->one(FLERR, "File {} has no fluids", file);
-    if (!line_of.count(name))
-      error->one(FLERR, "No fluid {} in file {}, which has:{}", name, file, known);
+    const FluidLine one = fluid_of_line(lmp, where, columns, words);
+    if (line_of.count(words[0]))
+      error->all(FLERR, "{}: fluid {} stands already in line {}", where, words[0],
+                 line_of[words[0]]);
+    line_of[words[0]] = number;
+    known.push_back(words[0]);
+    if (words[0] == name) exact = one;
+    if (!found && utils::lowercase(words[0]) == utils::lowercase(name)) {
+      in_any_case = one;
+      found = true;
+    }
   }
-
-  for (double *value : {&fluid.rho, &fluid.c, &fluid.mu, &fluid.kappa})
-    MPI_Bcast(value, 1, MPI_DOUBLE, 0, lmp->world);
-  int nrelax = static_cast<int>(fluid.relax.size());
-  MPI_Bcast(&nrelax, 1, MPI_INT, 0, lmp->world);
-  fluid.relax.resize(nrelax);
-  MPI_Bcast(fluid.relax.data(), nrelax, MPI_DOUBLE, 0, lmp->world);
-  return fluid;
+  if (known.empty()) error->all(FLERR, "File {} has no fluids", file);
+  if (!found)
+    unknown_word(lmp, name.c_str(), fmt::format("No fluid {} in file {}", name, file), known);
+  return line_of.count(name) ? exact : in_any_case;
 }

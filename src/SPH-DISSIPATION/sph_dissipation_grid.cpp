@@ -24,6 +24,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
 
@@ -272,7 +273,8 @@ GridCompute::GridCompute(LAMMPS *lmp, int narg, char **arg) : Compute(lmp, narg,
 {
   if (!domain->box_exist)
     error->all(FLERR, "Compute {} requires a simulation box, which comes later", style);
-  if (narg < 6) utils::missing_cmd_args(FLERR, fmt::format("compute {}", style), error);
+  demand_words(lmp, fmt::format("compute {}", style), narg,
+               fmt::format("ID group-ID {} Nx Ny Nz", style));
   for (int d = 0; d < 3; d++) {
     count[d] = utils::inumeric(FLERR, arg[3 + d], false, lmp);
     if (count[d] < 1)
@@ -362,7 +364,7 @@ bool GridCompute::add_value(const std::string &name)
       {"omegay", spin<1>, true},  {"omegaz", spin<2>, true},
   };
   for (const auto &value : KNOWN) {
-    if (name != value.name) continue;
+    if (Fields::field_name(name) != value.name) continue;
     if (value.spin && !Fields::with_spins(atom))
       error->all(FLERR, "Compute {} {} requires atom style sph/micropolar", style, name);
     names.push_back(name);

@@ -20,6 +20,7 @@
 #include "input.h"
 #include "memory.h"
 #include "sph_dissipation_fluids.h"
+#include "sph_dissipation_keywords.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,36 +50,14 @@ void FluidModel::allocate()
 }
 
 /* ----------------------------------------------------------------------
-   Return the index of an argument in the command of the input script, for error messages; Error::NOPOINTER for words of
-   data files and of files of fluids.
-------------------------------------------------------------------------- */
-
-int FluidModel::place(const char *word) const
-{
-  for (int iarg = 0; iarg < input->narg; iarg++)
-    if (input->arg[iarg] == word) return iarg;
-  return Error::NOPOINTER;
-}
-
-/* ----------------------------------------------------------------------
-   Set choice by a word; words = in the order of the enumeration.  Return false if the word is none of them.
-------------------------------------------------------------------------- */
-
-template <class Choice>
-static bool choose(Choice &choice, const std::string &word, const std::vector<std::string> &words)
-{
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found == words.end()) return false;
-  choice = static_cast<Choice>(found - words.begin());
-  return true;
-}
-
-/* ----------------------------------------------------------------------
    Read the arguments of pair_style.
 ------------------------------------------------------------------------- */
 
 void FluidModel::settings(int narg, char **arg)
 {
+  static constexpr const char *KEYWORDS[] = {"kernel", "dim",     "eos",   "shear",
+                                             "bulk",   "volume",  "limit", "density",
+                                             "delta",  "tension", "simd",  "temp"};
   choice = Settings();
   simd = "auto";
   if (spins) choice.shear = Shear::MICROPOLAR;
@@ -89,19 +68,19 @@ void FluidModel::settings(int narg, char **arg)
     const bool energy =
         (keyword == "temp" && iarg + 1 < narg && strcmp(arg[iarg + 1], "energy") == 0);
     nwords = energy ? 4 : (keyword == "temp") ? 3 : 2;
-    if (keyword != "kernel" && keyword != "dim" && keyword != "eos" && keyword != "bulk" &&
-        keyword != "volume" && keyword != "limit" && keyword != "simd" && keyword != "temp" &&
-        keyword != "density" && keyword != "delta" && keyword != "tension" && keyword != "shear")
-      error->all(FLERR, place(arg[iarg]), "Unknown pair_style {} keyword: {}", style, keyword);
-    if (iarg + nwords > narg)
-      utils::missing_cmd_args(
-          FLERR, "pair_style " + style + " " + keyword + (energy ? " energy" : ""), error);
+    if (std::find(std::begin(KEYWORDS), std::end(KEYWORDS), keyword) == std::end(KEYWORDS))
+      unknown_word(lmp, arg[iarg], fmt::format("Unknown pair_style {} keyword: {}", style, keyword),
+                   {std::begin(KEYWORDS), std::end(KEYWORDS)});
+    demand_words(lmp, fmt::format("pair_style {} {}", style, keyword), narg - iarg - 1,
+                 energy            ? "energy cv seed"
+                     : nwords == 3 ? "T seed"
+                                   : "value");
     if (keyword == "temp")
       set_temperature(arg + iarg + 1, energy);
     else if (keyword == "dim") {
       choice.dim = utils::inumeric(FLERR, arg[iarg + 1], false, lmp);
       if (choice.dim < 1 || choice.dim > 3)
-        error->all(FLERR, place(arg[iarg + 1]), "Pair_style {} dim must be 1, 2, or 3, not {}",
+        error->all(FLERR, place(lmp, arg[iarg + 1]), "Pair_style {} dim must be 1, 2, or 3, not {}",
                    style, arg[iarg + 1]);
     } else if (keyword == "delta")
       delta = arg[iarg + 1];
@@ -137,8 +116,8 @@ void FluidModel::set_surface(const char *delta, const char *tension)
   if (!choice.continuity) {
     for (const auto &one : {std::make_pair("delta", delta), std::make_pair("tension", tension)})
       if (one.second)
-        error->all(FLERR, place(one.second), "Pair_style {} {} requires density continuity", style,
-                   one.first);
+        error->all(FLERR, place(lmp, one.second), "Pair_style {} {} requires density continuity",
+                   style, one.first);
     return;
   }
   choice.delta = DEFAULT_DELTA;
@@ -146,7 +125,8 @@ void FluidModel::set_surface(const char *delta, const char *tension)
   if (delta) {
     choice.delta = utils::numeric(FLERR, delta, false, lmp);
     if (!(choice.delta >= 0.0) || !std::isfinite(choice.delta))
-      error->all(FLERR, place(delta), "Pair_style {} delta must be >= 0, not {}", style, delta);
+      error->all(FLERR, place(lmp, delta), "Pair_style {} delta must be >= 0, not {}", style,
+                 delta);
   }
   if (choice.eos == Eos::IDEAL)
     error->all(FLERR,
@@ -166,38 +146,50 @@ void FluidModel::set_surface(const char *delta, const char *tension)
 
 void FluidModel::set_choice(const std::string &keyword, const char *word)
 {
-  bool known = false;
+  std::vector<std::string> words;
   std::string what = keyword;
+  bool known = false;
+  const auto choose = [&](auto &choice, const std::vector<std::string> &all) {
+    words = all;
+    const auto found = std::find(words.begin(), words.end(), word);
+    known = (found != words.end());
+    if (known) choice = static_cast<std::decay_t<decltype(choice)>>(found - words.begin());
+  };
+
   if (keyword == "kernel") {
     std::vector<std::string> kernels;
     for (int k = 0; k <= static_cast<int>(Kernel::LUCY); k++)
       kernels.emplace_back(kernel_name(static_cast<Kernel>(k)));
-    known = choose(choice.kernel, word, kernels);
+    choose(choice.kernel, kernels);
   } else if (keyword == "eos") {
-    known = choose(choice.eos, word, {"linear", "tait", "ideal"});
+    choose(choice.eos, {"linear", "tait", "ideal"});
   } else if (keyword == "shear") {
     what = "shear form";
-    for (const Shear form : shear_forms(spins))
-      if (strcmp(word, shear_name(form)) == 0) {
-        choice.shear = form;
-        known = true;
-      }
+    for (const Shear form : shear_forms(spins)) {
+      words.emplace_back(shear_name(form));
+      if (word != words.back()) continue;
+      choice.shear = form;
+      known = true;
+    }
   } else if (keyword == "bulk") {
     what = "bulk form";
-    known = choose(choice.bulk, word, {"none", "density", "volume"});
+    choose(choice.bulk, {"none", "density", "volume"});
   } else if (keyword == "volume") {
-    known = choose(choice.volume, word, {"number", "mass"});
+    choose(choice.volume, {"number", "mass"});
   } else if (keyword == "limit") {
-    known = choose(choice.limit, word, {"no", "count", "yes"});
+    choose(choice.limit, {"no", "count", "yes"});
   } else if (keyword == "density") {
-    known = choose(choice.continuity, word, {"sum", "continuity"});
+    choose(choice.continuity, {"sum", "continuity"});
   } else if (keyword == "tension") {
-    known = choose(choice.tension, word, {"no", "yes"});
+    choose(choice.tension, {"no", "yes"});
   } else {
+    int any;
+    choose(any, {"auto", "none", "avx2", "avx512"});
     simd = word;
-    known = (simd == "auto" || simd == "none" || simd == "avx2" || simd == "avx512");
   }
-  if (!known) error->all(FLERR, place(word), "Unknown {} {} for pair_style {}", what, word, style);
+  if (!known)
+    unknown_word(lmp, word, fmt::format("Unknown {} {} for pair_style {}", what, word, style),
+                 words);
 }
 
 /* ----------------------------------------------------------------------
@@ -213,16 +205,17 @@ void FluidModel::set_temperature(char **words, bool energy)
   if (energy) {
     choice.heat_capacity = number;
     if (!(number > 0.0) || !std::isfinite(number))
-      error->all(FLERR, place(value),
+      error->all(FLERR, place(lmp, value),
                  "Pair_style {} temp energy: the heat capacity must be > 0, not {}", style, value);
   } else {
     choice.temperature = number;
     if (!(number >= 0.0))
-      error->all(FLERR, place(value), "Pair_style {} temp must be >= 0, not {}", style, value);
+      error->all(FLERR, place(lmp, value), "Pair_style {} temp must be >= 0, not {}", style, value);
   }
   choice.seed = utils::inumeric(FLERR, seed, false, lmp);
   if (choice.seed <= 0)
-    error->all(FLERR, place(seed), "Pair_style {} temp: the seed must be > 0, not {}", style, seed);
+    error->all(FLERR, place(lmp, seed), "Pair_style {} temp: the seed must be > 0, not {}", style,
+               seed);
 }
 
 /* ----------------------------------------------------------------------
@@ -245,6 +238,23 @@ bool FluidModel::is_type_keyword(const std::string &word) const
 }
 
 /* ----------------------------------------------------------------------
+   Return the names of the numbers of a type; stop at an unknown keyword.
+------------------------------------------------------------------------- */
+
+std::string FluidModel::names_of_numbers() const
+{
+  std::string names = "rho0 c0 mu kappa ";
+  for (int k = 1; k < nviscosity(); k++) names += std::string(VISCOSITY_NAMES[k]) + " ";
+  return names + "rc";
+}
+
+void FluidModel::unknown_keyword(const char *word, const std::vector<std::string> &names) const
+{
+  unknown_word(lmp, word,
+               fmt::format("Unknown pair_coeff keyword for pair_style {}: {}", style, word), names);
+}
+
+/* ----------------------------------------------------------------------
    Read the arguments of pair_coeff:
    I J rho0 c0 mu kappa rc [pb p] [gamma g]: the types I = J of both ranges
    I J FILE NAME rc [pb p] [gamma g]: the same, from a file of fluids
@@ -254,7 +264,9 @@ bool FluidModel::is_type_keyword(const std::string &word) const
 
 void FluidModel::coeff(int narg, char **arg, int **setflag)
 {
-  if (narg < 3) utils::missing_cmd_args(FLERR, "pair_coeff", error);
+  demand_words(lmp, "pair_coeff", std::min(narg, 2), "I J");
+  const std::string numbers = names_of_numbers();
+  if (narg == 2) demand_words(lmp, "pair_coeff", 0, numbers);
   int ilo, ihi, jlo, jhi;
   utils::bounds(FLERR, arg[0], 1, atom->ntypes, ilo, ihi, error);
   utils::bounds(FLERR, arg[1], 1, atom->ntypes, jlo, jhi, error);
@@ -270,7 +282,7 @@ void FluidModel::coeff(int narg, char **arg, int **setflag)
 
   if (count == 0)
     error->all(
-        FLERR, place(arg[2]),
+        FLERR, place(lmp, arg[2]),
         "Pair_coeff {} {} {}: the coefficients rho0 c0 mu kappa ... rc are for a type, I = J; "
         "viscosities and other coefficients by keyword are for unlike types",
         arg[0], arg[1], arg[2]);
@@ -294,12 +306,15 @@ int FluidModel::variable_of_pairs(const std::string &word) const
 int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int jhi, int **setflag)
 {
   const int nvalues = 6 + nviscosity();
-  if (narg < nvalues) utils::missing_cmd_args(FLERR, "pair_coeff", error);
+  int numbers = 0;
+  while (numbers < nvalues - 2 && numbers + 2 < narg && !is_type_keyword(arg[numbers + 2]))
+    numbers++;
+  demand_words(lmp, "pair_coeff", numbers, names_of_numbers());
 
   auto positive = [&](const char *what, const char *word) {
     const double value = utils::numeric(FLERR, word, false, lmp);
     if (!(value > 0.0) || !std::isfinite(value))
-      error->all(FLERR, place(word), "Pair_coeff {} must be > 0, not {}", what, word);
+      error->all(FLERR, place(lmp, word), "Pair_coeff {} must be > 0, not {}", what, word);
     return value;
   };
 
@@ -319,33 +334,36 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
     const TypeKeyword *const own = this->keyword(keyword);
     nwords = 1 + (own ? number_of_values(*own, narg - iarg, arg + iarg) : 1);
     if (variable_of_pairs(keyword) >= nviscosity())
-      error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} belongs to two unlike types",
+      error->all(FLERR, place(lmp, arg[iarg]), "Pair_coeff keyword {} belongs to two unlike types",
                  keyword);
-    if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv")
-      error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
-                 keyword);
-    if (iarg + nwords > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    if (!own && keyword != "pb" && keyword != "gamma" && keyword != "cv") {
+      std::vector<std::string> names = {"pb", "gamma", "cv"};
+      for (const TypeKeyword &one : keywords) names.emplace_back(one.name);
+      unknown_keyword(arg[iarg], names);
+    }
+    if (iarg + nwords > narg)
+      demand_words(lmp, "pair_coeff " + keyword, narg - iarg - 1, own ? own->words : "value");
     if (!(own && own->group) && std::find(given.begin(), given.end(), keyword) != given.end())
-      error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
+      error->all(FLERR, place(lmp, arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
     given.push_back(keyword);
     if (own) {
       double *a = one.keywords.data() + own->first;
       const double *const end = a + own->count;
       while (own->group && a < end && *a != 0.0) a += own->group;    // groups given before
       if (end - a < nwords - 1)
-        error->all(FLERR, place(arg[iarg]), "Pair_coeff {} has more than {} groups of numbers",
+        error->all(FLERR, place(lmp, arg[iarg]), "Pair_coeff {} has more than {} groups of numbers",
                    keyword, own->count / own->group);
       if (own->marked) *a++ = 1.0;
       for (int k = 1; k < nwords; k++) a[k - 1] = utils::numeric(FLERR, arg[iarg + k], false, lmp);
       if (const char *violated = inadmissible_keywords(one)) {
         std::string words;
         for (int k = 1; k < nwords; k++) words += std::string(" ") + arg[iarg + k];
-        error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);
+        error->all(FLERR, place(lmp, arg[iarg + 1]), "Pair_coeff {}, not{}", violated, words);
       }
       for (int k = 1; own->group && k < nwords; k += own->group)
         if (a[k - 1] == 0.0)
-          error->all(FLERR, place(arg[iarg + k]), "Pair_coeff {}: {} {} is no process", keyword,
-                     arg[iarg + k], arg[iarg + k + 1]);
+          error->all(FLERR, place(lmp, arg[iarg + k]), "Pair_coeff {}: {} {} is no process",
+                     keyword, arg[iarg + k], arg[iarg + k + 1]);
     } else if (keyword == "pb")
       one.eos.pb = utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     else if (keyword == "cv")
@@ -355,7 +373,7 @@ int FluidModel::type_coeff(int narg, char **arg, int ilo, int ihi, int jlo, int 
   }
 
   if (const char *violated = inadmissible(one.viscosity[0], one.kappa))
-    error->all(FLERR, place(arg[one.viscosity[0] >= 0.0 ? 5 : 4]),
+    error->all(FLERR, place(lmp, arg[one.viscosity[0] >= 0.0 ? 5 : 4]),
                "Pair_coeff {}, not mu = {} kappa = {}", violated, arg[4], arg[5]);
 
   int count = 0;
@@ -401,9 +419,9 @@ int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **ar
   if (!keyword.group) return keyword.numbers();
   int n = 0;
   while (n + 1 < narg && is_number(arg[n + 1])) n++;
-  if (n == 0) utils::missing_cmd_args(FLERR, std::string("pair_coeff ") + keyword.name, error);
+  if (n == 0) demand_words(lmp, std::string("pair_coeff ") + keyword.name, n, keyword.words);
   if (n % keyword.group)
-    error->all(FLERR, place(arg[0]),
+    error->all(FLERR, place(lmp, arg[0]),
                "Pair_coeff {} needs groups of {} numbers, of which {} are left", keyword.name,
                keyword.group, n % keyword.group);
   return n;
@@ -453,24 +471,27 @@ int FluidModel::unlike_coeff(int narg, char **arg, int ilo, int ihi, int jlo, in
   for (int iarg = 2; iarg < narg; iarg += 2) {
     const std::string keyword = arg[iarg];
     if (is_type_keyword(keyword))
-      error->all(FLERR, place(arg[iarg]),
+      error->all(FLERR, place(lmp, arg[iarg]),
                  "Pair_coeff keyword {} belongs to a type, not to a pair of types", keyword);
     const int k = variable_of_pairs(keyword);
     if (k < 0 && narg == 4 && nviscosity() == 1 && !is_number(arg[3]))
-      error->all(FLERR, place(arg[2]),
+      error->all(FLERR, place(lmp, arg[2]),
                  "Pair_coeff {} {}: a fluid of a file needs the support radius rc behind its name",
                  arg[2], arg[3]);
-    if (k < 0)
-      error->all(FLERR, place(arg[iarg]), "Unknown pair_coeff keyword for pair_style {}: {}", style,
-                 keyword);
-    if (iarg + 2 > narg) utils::missing_cmd_args(FLERR, "pair_coeff " + keyword, error);
+    if (k < 0) {
+      std::vector<std::string> names;
+      for (int one = 0; one < npair(); one++) names.push_back(variables[one].name);
+      unknown_keyword(arg[iarg], names);
+    }
+    demand_words(lmp, "pair_coeff " + keyword, narg - iarg - 1, "value");
     for (const Given &one : given)
       if (one.k == k)
-        error->all(FLERR, place(arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
+        error->all(FLERR, place(lmp, arg[iarg]), "Pair_coeff keyword {} is given twice", keyword);
     const bool mean = (k < nviscosity() && strcmp(arg[iarg + 1], "mean") == 0);
     const double value = mean ? 0.0 : utils::numeric(FLERR, arg[iarg + 1], false, lmp);
     if (k == 0 && !(value >= 0.0))
-      error->all(FLERR, place(arg[iarg + 1]), "Pair_coeff mu must be >= 0, not {}", arg[iarg + 1]);
+      error->all(FLERR, place(lmp, arg[iarg + 1]), "Pair_coeff mu must be >= 0, not {}",
+                 arg[iarg + 1]);
     given.push_back({k, mean ? 0 : 1, value});
   }
 

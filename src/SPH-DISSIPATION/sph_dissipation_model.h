@@ -181,7 +181,8 @@ namespace SPHDissipation {
     void set_choice(const std::string &keyword, const char *word);
     void set_temperature(char **words, bool energy);
     void set_surface(const char *delta, const char *tension);
-    int place(const char *) const;
+    std::string names_of_numbers() const;
+    [[noreturn]] void unknown_keyword(const char *word, const std::vector<std::string> &) const;
     int format_number() const;    // of restart files
     std::string type_line(int) const;
     void put_line(FILE *, const std::string &line, const std::string &what) const;

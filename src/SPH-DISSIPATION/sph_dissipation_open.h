@@ -32,6 +32,7 @@ namespace SPHDissipation {
 
   class Fields;
   class FluidModel;
+  class Keywords;
   struct EosParams;
   struct Particle;
 

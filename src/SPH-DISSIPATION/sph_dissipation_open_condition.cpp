@@ -24,6 +24,7 @@
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "update.h"
 
@@ -42,19 +43,20 @@ void OpenValues::read(Keywords &key)
     const char *name;
     Quantity first;
     int n;
-    bool or_inside;    // can be taken from inside
+    bool or_inside;      // can be taken from inside
+    const char *more;    // names of the values behind the first one
   };
-  static constexpr Keyword KEYWORDS[] = {{"velocity", VX, 3, true},
-                                         {"density", RHO, 1, true},
-                                         {"pressure", P, 1, true},
-                                         {"energy", ENERGY, 1, false},
-                                         {"temperature", TEMPERATURE, 1, false},
-                                         {"spin", WX, 3, false}};
+  static constexpr Keyword KEYWORDS[] = {{"velocity", VX, 3, true, "vy vz"},
+                                         {"density", RHO, 1, true, ""},
+                                         {"pressure", P, 1, true, ""},
+                                         {"energy", ENERGY, 1, false, ""},
+                                         {"temperature", TEMPERATURE, 1, false, ""},
+                                         {"spin", WX, 3, false, "wy wz"}};
   for (const auto &keyword : KEYWORDS) {
     if (!key.is(keyword.name)) continue;
     for (int k = 0; k < keyword.n; k++) is_given[keyword.first + k] = false;
     if (keyword.or_inside && strcmp(key.word(), "inside") == 0) return;
-    key.more(keyword.n - 1);
+    if (keyword.n > 1) key.more(keyword.more);
     for (int k = 0; k < keyword.n; k++) {
       value[keyword.first + k].set(lmp, key.word(k));
       is_given[keyword.first + k] = true;

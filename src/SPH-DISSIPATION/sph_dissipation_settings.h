@@ -131,9 +131,10 @@ namespace SPHDissipation {
   // Keyword of pair_coeff with coefficients of a type: count numbers, or up to count in groups of equal size.
   struct TypeKeyword {
     const char *name;
-    int count;    // coefficients, at most
-    int group;    // coefficients of a group; 0: no groups
-    int needs;    // bits of enum Requirement
+    const char *words;    // names of its numbers, of one group, for messages
+    int count;            // coefficients, at most
+    int group;            // coefficients of a group; 0: no groups
+    int needs;            // bits of enum Requirement
     // true: the number 0 has an effect.  The first coefficient is no number of the command, but 1 if the keyword is given
     bool marked = false;
     int first = 0;    // place among the coefficients of all channels, set by type_keywords()

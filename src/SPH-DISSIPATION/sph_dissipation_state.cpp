@@ -115,6 +115,7 @@ void FluidState::add_up(const std::function<double(int)> &pressure)
       mean.excess_sq += excess * excess;
       mean.pressure += p;
       mean.sum += sum[i] / eos.rho0;
+      mean.volume += atom->rmass[i] / sum[i];
       Range &range = my_ranges[type * NSET + set];
       range.smallest = std::min(range.smallest, excess);
       range.minus_largest = std::min(range.minus_largest, -excess);
@@ -384,6 +385,29 @@ void FluidState::warn_of_density(const std::string &fix_style) const
                      "particle should be rho0 times its volume; use the set command, or keyword "
                      "density of fix {}",
                      rho, type, rho0, fix_style);
+  }
+}
+
+/* ----------------------------------------------------------------------
+   Compare the support radius R with the root of the volume, the distance of the particles.  A sum over few neighbors finds
+   too small a volume: their ratio is 1.3 to 1.9 at a support of 1.2 distances, by the kernel, and 2.0 to 2.1 at two.
+------------------------------------------------------------------------- */
+
+void FluidState::warn_of_support(const std::string &style) const
+{
+  constexpr double FEWEST = 2.0;    // distances of particles
+  if (comm->me != 0) return;
+  const double support = engine.constants().support;
+  const int dim = engine.constants().dim;
+  for (int type = 1; type <= atom->ntypes; type++) {
+    if (!has_type(type) || count(type, ALL) <= 2.0 * dim) continue;
+    const Mean &mean = means[best(type)];
+    if (support < FEWEST * pow(mean.volume / mean.count, 1.0 / dim))
+      error->warning(FLERR,
+                     "Pair style {}: the support radius {:g} is less than {:g} distances of the "
+                     "particles of type {}, which thus have too few neighbors; use an rc of three "
+                     "to four particle distances",
+                     style, support, FEWEST, type);
   }
 }
 

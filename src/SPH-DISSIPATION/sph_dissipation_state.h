@@ -79,6 +79,10 @@ namespace SPHDissipation {
 
     void warn_of_density(const std::string &fix_style) const;
 
+    // Warn, on rank 0, of types whose particles are farther apart than half of the support radius
+
+    void warn_of_support(const std::string &style) const;
+
     // Warn, on rank 0, of the type whose arrangement has the largest shear elasticity over its viscosity, if its motion is a
     // shear that the arrangement survives.  moving = time since the start or the last call; 0 at the start.  Return the time
     // until the next call, the decay time of the longest waves, if there is no such motion yet, else 0.
@@ -99,7 +103,8 @@ namespace SPHDissipation {
     enum Set { ALL, FULL, NSET };
     struct Mean {
       double count, excess, excess_sq, pressure;    // sums; excess = rho/rho0 - 1
-      double sum;    // over the part of rho/rho0 that is a sum over neighbors
+      double sum;       // over the part of rho/rho0 that is a sum over neighbors
+      double volume;    // sum, from the sum over neighbors
     };
     struct Range {
       double smallest, minus_largest;    // of the excess

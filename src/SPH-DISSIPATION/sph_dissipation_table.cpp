@@ -64,13 +64,7 @@ std::string CoeffTable::skin_text(double skin, double dt, double support, int di
 {
   constexpr double GAIN = 0.1;
   const double motion = fastest * fabs(dt);
-  if (!(motion > 0.0)) {
-    if (skin <= support) return "";
-    return fmt::format(
-        "  with a skin of {:.3g}, which is {:.2g} support radii, the neighbor list is {:.2g} "
-        "times as long as without\n",
-        skin, skin / support, pow(1.0 + skin / support, dim));
-  }
+  if (!(motion > 0.0)) return "";
   const double best = fastest_skin(motion, support, dim);
   const double part =
       time_with_skin(best, motion, support, dim) / time_with_skin(skin, motion, support, dim);

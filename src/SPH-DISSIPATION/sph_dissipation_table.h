@@ -48,7 +48,7 @@ namespace SPHDissipation {
     double fastest_heat_rate() const { return rate_of(heat); }    // of conduction
 
     // Return a line with the fastest skin of the neighbor list at these speeds; empty if that skin saves less than a tenth
-    // of the time per step.  At rest, the line tells how much longer the list is by a skin that exceeds the support radius
+    // of the time per step, and at rest
     std::string skin_text(double skin, double dt, double support, int dim) const;
 
    private:

@@ -22,7 +22,6 @@
 #include "variable.h"
 
 #include <cmath>
-#include <cstring>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -88,76 +87,4 @@ void Value::demand_finite(LAMMPS *lmp, int groupbit, const std::string &owner) c
     return;
   lmp->error->all(FLERR, "{}: variable {} is {}{} at step {}: values must be finite", owner,
                   variable_name, odd, where, lmp->update->ntimestep);
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool Keywords::next()
-{
-  if (!known) lmp->error->all(FLERR, "Unknown {} keyword: {}", utils::lowercase(owner), keyword);
-  if (end >= narg) return false;
-  keyword = arg[end];
-  at = ++end;
-  known = false;
-  return true;
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool Keywords::is(const std::string &name, int nwords)
-{
-  if (keyword != name) return false;
-  known = true;
-  end = at;
-  more(nwords);
-  return true;
-}
-
-void Keywords::more(int nwords)
-{
-  end += nwords;
-  if (end > narg)
-    utils::missing_cmd_args(FLERR, fmt::format("{} {}", utils::lowercase(owner), keyword),
-                            lmp->error);
-}
-
-/* ---------------------------------------------------------------------- */
-
-double Keywords::number(int k) const
-{
-  return utils::numeric(FLERR, word(k), false, lmp);
-}
-
-int Keywords::whole_number() const
-{
-  return utils::inumeric(FLERR, word(), false, lmp);
-}
-
-double Keywords::positive() const
-{
-  const double value = number();
-  demand(value > 0.0, "> 0");
-  return value;
-}
-
-/* ---------------------------------------------------------------------- */
-
-int Keywords::choice(std::initializer_list<const char *> words) const
-{
-  std::string all;
-  for (const char *const *one = words.begin(); one != words.end(); one++) {
-    if (strcmp(*one, word()) == 0) return static_cast<int>(one - words.begin());
-    if (one != words.begin()) all += (words.size() > 2) ? ", " : " ";
-    if (one == words.end() - 1) all += "or ";
-    all += *one;
-  }
-  demand(false, all);
-  return -1;
-}
-
-/* ---------------------------------------------------------------------- */
-
-void Keywords::demand(bool good, const std::string &what) const
-{
-  if (!good) lmp->error->all(FLERR, "{} {} must be {}, not {}", owner, keyword, what, word());
 }

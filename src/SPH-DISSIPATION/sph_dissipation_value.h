@@ -14,7 +14,6 @@
 #ifndef LMP_SPH_DISSIPATION_VALUE_H
 #define LMP_SPH_DISSIPATION_VALUE_H
 
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -58,44 +57,6 @@ namespace SPHDissipation {
     bool by_atom = false;
     double number = 0.0;
     std::vector<double> column;    // by owned particle
-  };
-
-  // The keywords at the end of a command: each is a name and a number of words.
-  //
-  //   for (Keywords key(lmp, "Fix sph/dt", 4, narg, arg); key.next();)
-  //     if (key.is("min")) smallest = key.positive();
-  //
-  // Stops for an unknown keyword, which is() has never found, and for a keyword with too few words.
-
-  class Keywords {
-   public:
-    // Begin in front of arg[first]; owner: for messages.
-    Keywords(LAMMPS *lmp, const std::string &owner, int first, int narg, char **arg) :
-        lmp(lmp), owner(owner), narg(narg), arg(arg), at(first), end(first)
-    {
-    }
-
-    bool next();    // Go to the next keyword; false if there is none.
-    bool is(const std::string &name, int nwords = 1);    // if it is this one, go behind its words
-    void more(int nwords);                               // Go behind more words of it.
-
-    const std::string &name() const { return keyword; }
-    char **words() const { return arg + at; }
-    const char *word(int k = 0) const { return arg[at + k]; }
-    double number(int k = 0) const;
-    int whole_number() const;
-    double positive() const;                                        // > 0
-    int choice(std::initializer_list<const char *> words) const;    // index of the word among these
-    void demand(bool good, const std::string &what) const;    // error "must be what, not word"
-
-   private:
-    LAMMPS *const lmp;
-    const std::string owner;
-    const int narg;
-    char **const arg;
-    int at, end;            // range of the words of the keyword
-    std::string keyword;    // empty: in front of the first keyword
-    bool known = true;
   };
 
 }    // namespace SPHDissipation

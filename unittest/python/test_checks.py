@@ -339,11 +339,12 @@ def test_ideal_gas_without_energy(lammps, ranks):
 def test_support_smaller_than_the_spacing(lammps, dim, ranks, newton):
     lattice(dim, {1: 60, 2: 12, 3: 8}[dim]).write(lammps.path("box.data"))
     text = header(dim, newton=newton) + "read_data box.data\n"
-    for support, number in ((0.9, "0"), (1.1, None), (1.5, None)):
-        found = warnings(lammps, text + fluid(dim, support=support) + INTEGRATE, "neighbors on average", ranks)
-        assert len(found) == (number is not None), found
-        if found:
-            assert f"have only {number} neighbors on average within the support radius 0.9" in found[0]
+    for kernel in ("wendland/c2", "wendland/c6", "lucy"):    # the estimate of a distance depends on the kernel
+        for support, few in ((0.9, True), (1.2, True), (1.75, True), (2.1, False), (3.0, False)):
+            found = warnings(lammps, text + fluid(dim, f"kernel {kernel}", support=support) + INTEGRATE, "too few neighbors", ranks)
+            assert len(found) == few, (kernel, support, found)
+            if found:
+                assert f"the support radius {support} is less than 2 distances of the particles of type 1" in found[0]
 
 
 @pytest.mark.parametrize("newton, ranks", [("on", 1), ("off", 2), ("on", 4), ("off", 4)])

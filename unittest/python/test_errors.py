@@ -1,11 +1,13 @@
 """Bad input: LAMMPS's usual error, naming the word or the value, on every rank; no crash, no hang, no NaN."""
 
 import re
+from pathlib import Path
 
 import pytest
 
 from helpers import disordered, lattice
 
+ROOT = Path(__file__).resolve().parents[2]
 GOOD = {
     "units": "units lj",
     "dimension": "dimension 2",
@@ -253,6 +255,56 @@ def test_refused(box, changes, words):
 def test_refused_on_two_ranks(box, changes, words):
     damaged(box)
     assert_refused(box(deck(**changes), ranks=2, check=False, timeout=60), words)
+
+
+# -- Beginners ------------------------------------------------------------------------------------------------------
+
+FIRST = re.search(r"^```\n(# a sound wave.*?)^```$", (ROOT / "README.md").read_text(), re.MULTILINE | re.DOTALL)[1]
+SI = {r"^units .*": "units si", r"^(lattice +hex) .*": r"\1 $(1e-6*sqrt(2/sqrt(3)))", r" 4\.0 +#": " 4e-6 #", "^set .*": "set group all mass 8.66e-13"}
+
+# what is changed in README's input: what is printed, in a warning unless it is an error
+MISTAKES = {
+    "no mass": ({"^set .*": ""}, r"ERROR: .* mass must be > 0, which that of particle 1 is not; use the set command"),
+    "mass ten times too large": ({"v_mass$": "8.66", "density rho0": ""}, r"mean density 10\.\d* of type 1 is far from its rho0 1: the mass .* should be rho0 times its volume"),
+    "time step 20 times too large": ({"^timestep .*": "timestep 1.0"}, r"time step 1 exceeds the largest stable time step 0\.049"),
+    "kT of 300": ({"^pair_style .*": "pair_style sph/bulk temp 300 1"}, r"thermal velocity .* is 1\.9 c0, .* use a lower temperature, a larger c0"),
+    "velocities above c0": ({"v_wave v_wave NULL": "0.0 v_wave NULL\nvelocity all ramp vx -20 20 y 0 6", "^timestep .*": "timestep 0.005"}, r"\d+ of 480 particles are faster than 0\.3 c0: .*; use a c0 of 10 times the largest speed"),
+    "wall of all": ({"^(fix .*) density rho0": r"\1\nfix w all sph/wall"}, r"ERROR: .*of the wall of fix w sph/wall is also moved by fix 1 sph/bulk"),
+    "units real": ({"units .*": "units real"}, r"ERROR: .* use units lj, si, cgs, micro, or nano, not real"),
+    "no kappa": ({"0.4 2.0 4.0": "0.4 4.0"}, r"ERROR: Illegal pair_coeff command: missing argument\(s\), 4 of 5 given; give rho0 c0 mu kappa rc"),
+    "half a kernel": ({"^pair_style .*": "pair_style sph/bulk kernel wendland"}, r"ERROR: Unknown kernel wendland .*; use wendland/c2, wendland/c4, wendland/c6, cubic, quintic, or lucy"),
+    "keyword of the pair style": ({"^pair_style .*": "pair_style sph/bulk kernal lucy"}, r"ERROR: Unknown pair_style sph/bulk keyword: kernal; use kernel, dim, eos, .*, or temp"),
+    "keyword of the coefficients": ({r"4\.0 +#": "4.0 yeild 0.1 1.0 #"}, r"ERROR: Unknown pair_coeff keyword .*: yeild; use yield, pb, gamma, .*, or solute"),
+    "keyword of a fix": ({"density rho0": "vicous rkl2"}, r"ERROR: Unknown fix sph/bulk keyword: vicous; use viscous, density, .*, or iterations"),
+    "keyword of a compute": ({"^(run .*)": r"compute e all sph/energy now\n\1"}, r"ERROR: Unknown compute sph/energy keyword: now: there are no keywords"),
+    "noise without a seed": ({"^pair_style .*": "pair_style sph/bulk temp 0.01"}, r"ERROR: Illegal pair_style sph/bulk temp command: missing argument\(s\), 1 of 2 given; give T seed"),
+    "yield stress without m": ({r"4\.0 +#": "4.0 yield 0.1 #"}, r"ERROR: Illegal pair_coeff yield command: missing argument\(s\), 1 of 2 given; give tau_y m"),
+    "two velocities of a wall": ({"^(fix .*)": r"\1\nfix w all sph/wall velocity 1 0"}, r"ERROR: Illegal fix sph/wall velocity command: missing argument\(s\), 2 of 3 given; give vx vy vz"),
+    "nve": ({"^fix .*": "fix 1 all nve"}, r"ERROR: Pair style sph/bulk requires fix sph/bulk"),
+    "nvt as well": ({"^(fix .*)": r"\1\nfix 2 all nvt temp 1 1 1"}, r"Fix 2 nvt also integrates 480 particles of fix sph/bulk, .*; use fix sph/bulk alone"),
+    "support of 1.2 spacings": ({r"2\.0 4\.0 +#": "2.0 1.2 #"}, r"support radius 1\.2 is less than 2 distances of the particles .*; use an rc of three to four particle distances"),
+    "name of the set command": ({"^(run .*)": r"compute r all property/atom sph/rho\ncompute g all sph/grid 4 4 1 sph/e\n\1"}, None),
+    "no such file of fluids": ({"^(pair_coeff +. .) .*": r"\1 liquids.sph water 4.0"}, r"ERROR: Cannot open file of fluids liquids\.sph.*export LAMMPS_POTENTIALS"),
+    "no such fluid": ({"^(pair_coeff +. .) .*": r"\1 fluids.sph watr 4.0"}, r"ERROR: No fluid watr in file fluids\.sph; use water, "),
+    "the skin of units si": (SI, r"skin of the neighbor list, 0\.001, is 2\.5e\+02 support radii.*; use neighbor 4e-07 bin"),
+}
+
+
+@pytest.mark.parametrize("mistake", MISTAKES)
+def test_mistakes_of_beginners(lammps, mistake):
+    """README's first input with one mistake: what is printed names the cure, above no other message."""
+    changes, message = MISTAKES[mistake]
+    text = FIRST
+    for old, new in changes.items():
+        text, count = re.subn(old, new, text, flags=re.MULTILINE)
+        assert count, old
+    result = lammps(re.sub(r"^run .*", "run 0" if mistake.startswith("the skin") else "run 200", text, flags=re.MULTILINE), check=False, timeout=60)
+    found = re.findall(r"^(?:ERROR|WARNING).*", result.output, re.MULTILINE)
+    if message is None:
+        assert not found and result.code == 0, found
+        return
+    assert re.search(message, found[0]), found
+    assert (result.code or "ERROR" not in message) and "MPI_ABORT" not in result.output
 
 
 @pytest.mark.parametrize("ranks", [1, 2])

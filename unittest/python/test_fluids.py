@@ -133,7 +133,7 @@ BAD = {
     "duplicate": (GOOD + "\nwater 300 999 1500 1e-3 1e-3\n", r"my\.fluids:7: fluid water .*already in line 5"),
     "duplicate of another fluid": (GOOD + "honey 300 999 1500 1e-3 1e-3\n",
                                    r"my\.fluids:6: fluid honey .*already in line 4"),
-    "unknown name": (spoilt("water", "Water"), r"No fluid water in .*my\.fluids.*: honey Water"),
+    "unknown name": (spoilt("water", "wader"), r"No fluid water in .*my\.fluids; use wader or honey"),
     "empty": ("# UNITS: si\n", r"File my\.fluids has no fluids"),
     "garbage": ("\x01\x02\u00ff" * 999, r"my\.fluids:1: a fluid has 6 columns"),
     "a folder": ("", r"Cannot read file of fluids my\.fluids: Is a directory"),
@@ -168,6 +168,17 @@ def test_bad_arguments_behind_a_good_file(box, arguments, message):
     result = box(deck(f"pair_coeff * * {arguments}\n"), check=False, timeout=60)
     assert result.code != 0, f"accepted:\n{result.output[-2000:]}"
     assert re.search(message, result.error), result.error or result.output[-2000:]
+
+
+def test_names_in_any_case(box):
+    """... if no name is the same in both; files of the package are found in any folder."""
+    both = GOOD + GOOD.splitlines()[4].replace("water", "Water").replace("1000", "999") + "\n"
+    for file, name, rho in [(GOOD, "WATER", "1000"), (both, "Water", "999"), (both, "water", "1000"), (both, "WATER", "1000")]:
+        box.path("my.fluids").write_text(file)
+        box(deck(f"pair_coeff * * my.fluids {name} 2.5\nwrite_data out.data pair ii\n"))
+        assert re.search(rf"^1 {rho} 1500 ", box.path("out.data").read_text(), re.MULTILINE), (name, rho)
+    assert not box.path("fluids.sph").exists()
+    box(deck("pair_coeff * * fluids.sph Water 2.5\n"))
 
 
 def test_the_good_file_is_good(box):
@@ -369,7 +380,7 @@ BAD_GASES = {
     "process of no time": (spoilt_gas("1e-3 0.5", "- 0.5"), r"my\.fluids:4: tau1 must be > 0, not -"),
     "zero tau": (spoilt_gas("1e-3 0.5", "0 0.5"), r"my\.fluids:4: tau1 must be > 0, not 0"),
     "duplicate": (GOOD_GASES.replace("fog ", "haze"), r"my\.fluids:4: fluid haze stands already in line 3"),
-    "unknown name": (spoilt_gas("haze", "Haze"), r"No fluid haze in file my\.fluids, which has: Haze fog"),
+    "unknown name": (spoilt_gas("haze", "hale"), r"No fluid haze in file my\.fluids; use hale or fog"),
 }
 
 

@@ -81,11 +81,21 @@ def keywords(*needs):
     """of pair_coeff with one of these requirements (enum Requirement)"""
     found = []
     for file in SOURCES:
-        for name, words in re.findall(r'\{"(\w+)", \w+, \w+, ([A-Z_ |]+)(?:, true)?\}', file.read_text()):
+        for name, words in re.findall(r'\{"(\w+)",\s+"[^"]*",\s+\w+,\s+\w+,\s+([A-Z_ |]+)(?:, true)?\}', file.read_text()):
             if set(words.split(" | ")) & set(needs):
                 found.append(f"*{name}*")
     assert found
     return found
+
+
+def test_names_of_numbers():
+    """... of the keywords of pair_coeff, which a message about too few of them has, are those of the page, in their order and number."""
+    page = (ROOT / "doc" / "src" / "pair_sph_bulk.rst").read_text()
+    rows = [row for file in SOURCES for row in re.findall(r'\{"(\w+)",\s+"([^"]*)",\s+(\w+),\s+\w+,\s+[A-Z_ |]+(?:, true)?\}', file.read_text())]
+    assert len(rows) == 12
+    for name, words, count in rows:
+        assert name == "conductivity" or re.search(rf"^ +\*{name}\* values? = {words} (?:\.\.\. )?= ", page, re.MULTILINE), name
+        assert not count.isdigit() or int(count) == len(words.split()), name
 
 
 def refused_by(file, function):

@@ -194,6 +194,19 @@ def test_inputs_run(lammps, text, finds):
         assert any(round(value, len(number.partition(".")[2])) == float(number) for value in last), (number, last)
 
 
+# inputs that print what they measure beside theory: relative errors at the end, within which a page says that they are
+BESIDE_THEORY = {"pair_sph_bulk_heat": {("c_wave[1]", "v_heated"): 0.012, ("c_wave[2]", "v_dyed"): 0.005}, "pair_sph_bulk": {("f_mean", "v_theory"): 0.035},
+                 "pair_sph_bulk_noise": {("f_mean[1]", "v_theory"): 0.01, ("f_mean[2]", "v_theory"): 0.25}}
+
+
+@pytest.mark.parametrize("page", ["pair_sph_bulk_heat", "pair_sph_bulk", pytest.param("pair_sph_bulk_noise", marks=pytest.mark.long)])
+def test_measured_beside_theory(lammps, page):
+    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / f"{page}.rst") if is_input(text))
+    table = lammps(text, timeout=300).thermo()[-1]
+    for (measured, theory), error in BESIDE_THEORY[page].items():
+        assert table[measured][-1] == pytest.approx(table[theory][-1], rel=error), measured
+
+
 def test_streaming_in_a_box_of_unequal_sides(lammps):
     """k = 1.5 q: without the part of the wave in the mean, and with velocities by the places of the displaced particles."""
     (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_streaming.rst") if "v_ratio" in text)

@@ -265,12 +265,13 @@ def test_no_recommended_skin(lammps, case):
     assert best_skin(lammps(stream(0.05, **case)).log) is None
 
 
-@pytest.mark.parametrize("skin, times", [(3.0, None), (4.5, "6.2")])
-def test_skin_at_rest(lammps, skin, times):
-    """A skin that exceeds the support radius is too long for any speed."""
+@pytest.mark.parametrize("skin, times, speed", [(3.0, None, 0.0), (4.5, "6.2", 0.0), (4.5, "6.2", 1.0)])
+def test_skin_above_the_support(lammps, skin, times, speed):
+    """... is too long for any speed: a warning, once."""
     lattice(2, 12).write(lammps.path("data.txt"))
-    found = re.search(r"with a skin of (\S+), which is 1.5 support radii, the neighbor list is (\S+) times as long", lammps(stream(skin, speed=0.0)).log)
-    assert (found and found.groups()) == (times and ("4.5", times))
+    log = lammps(stream(skin, speed=speed) + "run 0\n").log
+    found = re.findall(r"the skin of the neighbor list, (\S+), is 1.5 support radii, with which the list is (\S+) times as long as without; use neighbor 0.3 bin", log)
+    assert found == ([("4.5", times)] if times else [])
 
 
 @pytest.mark.parametrize("speed, options, warned", [(4.0, "", True), (2.0, "", False), (0.0, "", False), (4.0, "eos ideal", False), (4.0, "temp 1e-6 1", False)])
