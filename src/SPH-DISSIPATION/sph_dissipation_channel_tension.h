@@ -14,8 +14,7 @@
 // Tension, from energies of pairs with the reference volumes w = m/rho0: central forces, without curvature or normals.
 // tension: of the interface of two unlike fluids, a w_i w_j W(r).  A plane that divides the fluids has the tension a <|z|>/2,
 // with <|z|> the integral of |z| W.  PairEnergyKernel has W, which is not the kernel of the densities.
-// cohesion: of the free surface of a type; adhesion: half of the work that separates two unlike types.  CohesionKernel has
-// the energy of both.
+// cohesion: of the free surface of a type; CohesionKernel has the energy.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -33,12 +32,13 @@ namespace SPHDissipation {
   struct TensionChannel : BaseChannel {
     static constexpr const char *NAME = "tension";
     static constexpr bool OF_MOTION = false, OPTIONAL = true, PAIR_ENERGY = true;
-    enum { SIGMA, ADHESION };    // of two unlike types: energy/area, in two dimensions energy/length
-    enum { COHESION };           // of a type, in the same unit
+    enum { SIGMA };       // of two unlike types: energy/area, in two dimensions energy/length
+    enum { COHESION };    // of a type, in the same unit
     static constexpr int NTYPE = 1;
-    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {{{"cohesion", 1, 0, TENSION}}};
+    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
+        {{"cohesion", "sigma", 1, 0, TENSION}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"cohesion", COHESION}}};
-    static constexpr std::array<const char *, 2> UNLIKE_KEYWORDS = {"tension", "adhesion"};
+    static constexpr std::array<const char *, 1> UNLIKE_KEYWORDS = {"tension"};
 
     static double pair_energy(const PairFluid &fluid, const OwnWords &words)
     {
@@ -46,14 +46,15 @@ namespace SPHDissipation {
     }
     static double cohesion(const PairFluid &fluid, const OwnWords &words)
     {
-      return CohesionKernel::coefficient(fluid.dim, fluid.support,
-                                         fluid.like ? words.type[COHESION] : words.unlike[ADHESION]);
+      if (!fluid.like) return 0.0;
+      return CohesionKernel::coefficient(fluid.dim, fluid.support, words.type[COHESION]);
     }
     template <class Add>
-    static void add_columns(const PairFluid &fluid, const OwnWords &words, const double *, Add &&add)
+    static void add_columns(const PairFluid &fluid, const OwnWords &words, const double *,
+                            Add &&add)
     {
       add("tension", words.unlike[SIGMA]);
-      add("cohesion", fluid.like ? words.type[COHESION] : words.unlike[ADHESION]);
+      add("cohesion", fluid.like ? words.type[COHESION] : 0.0);
     }
     static const char *inadmissible_type(const double *type, int)
     {
@@ -62,17 +63,14 @@ namespace SPHDissipation {
     }
     static const char *inadmissible(const PairFluid &, const OwnWords &words)
     {
-      const auto none = [&](int k) {
-        return !(words.unlike[k] >= 0.0 && std::isfinite(words.unlike[k]));
-      };
-      if (none(SIGMA)) return "tension must be >= 0";
-      return none(ADHESION) ? "adhesion must be >= 0" : nullptr;
+      const double sigma = words.unlike[SIGMA];
+      return (sigma >= 0.0 && std::isfinite(sigma)) ? nullptr : "tension must be >= 0";
     }
     // Return the step of capillary waves, J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
     static double wave_step(const OwnWords &words, const PairInertia &inertia)
     {
-      const double largest = std::max(words.type[COHESION], words.unlike[ADHESION]);
-      return capillary_step(inertia.rho, inertia.hsq, words.unlike[SIGMA] + largest);
+      return capillary_step(inertia.rho, inertia.hsq,
+                            std::max(words.unlike[SIGMA], words.type[COHESION]));
     }
   };
 

@@ -482,7 +482,7 @@ namespace SPHDissipation {
     return sum;
   }
 
-  // Return A of the energy of cohesion or adhesion of a pair, the sum over the channels
+  // Return A of the energy of cohesion of a pair, the sum over the channels
   inline double cohesion(const TypePair &pair)
   {
     double sum = 0.0;

@@ -149,7 +149,7 @@ namespace SPHDissipation {
     }
   };
 
-  // Kernel of the energy of cohesion and adhesion, A w_i w_j [W(r; b R) - W(r; R)] with Wendland C6 and b = INNER.  Both parts
+  // Kernel of the energy of cohesion, A w_i w_j [W(r; b R) - W(r; R)] with Wendland C6 and b = INNER.  Both parts
   // have the integral 1: the energy and the pressure inside of a fluid vanish, and a surface lacks the energy A (1 - b) <|x|>/4
   // per area.  The Fourier transform of the difference is positive, so that the energy keeps particles apart.
 
@@ -169,12 +169,12 @@ namespace SPHDissipation {
     double weight(double r) const { return part(0, r, true) - part(1, r, true); }
     double slope(double r) const { return part(0, r, false) - part(1, r, false); }
 
-    // Return A for this tension of a free surface.  Its particles are no section of a uniform fluid: the tension of surfaces of
-    // liquids is SURFACE times that of the integral, whatever the support and the size of a drop are
+    // Return A for this tension of a free surface.  The particles at a surface are no section of a uniform fluid: the
+    // tension of drops is SURFACE times that of the integral, see test_cohesion.py
     static double coefficient(int n, double support, double sigma)
     {
       constexpr double ALONG[] = {0.0, 1.0, 2.0 / KERNEL_PI, 0.5};    // <|x|>/<r>
-      constexpr double SURFACE[] = {1.0, 1.0, 1.30, 1.30};
+      constexpr double SURFACE[] = {1.0, 1.0, 1.33, 1.37};
       const double mean = ALONG[n] * kernel_mean(Kernel::WENDLAND_C6, n, 1, support);
       return 4.0 * sigma / (SURFACE[n] * (1.0 - INNER) * mean);
     }

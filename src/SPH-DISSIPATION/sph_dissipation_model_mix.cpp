@@ -110,7 +110,9 @@ void FluidModel::derive(int dim, double support)
     if (choice.thermal) check_balance(i);
   }
   const auto is_none = [](const auto &a) {
-    return std::all_of(a.begin(), a.end(), [](const auto &one) { return one == 0.0; });
+    return std::all_of(a.begin(), a.end(), [](const auto &one) {
+      return one == 0.0;
+    });
   };
   if (is_none(par->pair_energy)) par->pair_energy.clear();
   if (is_none(par->cohesion)) par->cohesion.clear();

@@ -23,7 +23,7 @@ namespace SPHDissipation {
   struct CohesionKernel;
 
   // Energies of pairs and their forces, after pass 2, with the reference volumes w = m/rho0: of unlike types, a w_i w_j W(r),
-  // see BaseChannel::pair_energy() and PairEnergyKernel; of cohesion and adhesion, see BaseChannel::cohesion() and
+  // see BaseChannel::pair_energy() and PairEnergyKernel; of cohesion, see BaseChannel::cohesion() and
   // CohesionKernel
 
   class PairEnergyStage : public Stage {
