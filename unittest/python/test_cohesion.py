@@ -77,8 +77,8 @@ def test_energy_and_force_of_each_particle(lammps, dim, options, ranks, newton):
     text = start(particles, lammps, "", newton=newton)
     for name, sigma in ("plain", {}), ("cohesion", SIGMA):
         text += f"{STYLE} dim {dim} {options}\n" + coefficients(dim, sigma, mu=0.0 if "none" in options and dim == 1 else 0.5)
-        text += f"compute E all pe/atom\ncompute V all stress/atom NULL virial\ndump D all custom 1 {name}.dump id type mass x y z fx fy fz c_E rho esph c_V[1]\n"
-        text += "dump_modify D sort id format float %.17g\nrun 0\nundump D\nuncompute E\nuncompute V\n"
+        text += f"compute E all pe/atom\ncompute V all stress/atom NULL virial\ncompute rho all property/atom rho\ndump D all custom 1 {name}.dump id type mass x y z vx vy vz fx fy fz c_E c_rho c_V[1]\n"
+        text += "dump_modify D sort id format float %.17g\nrun 0\nundump D\nuncompute E\nuncompute V\nuncompute rho\n"
     if "avx2" in options and "avx2" not in open("/proc/cpuinfo", encoding="utf-8").read():
         pytest.skip("the processor has no AVX2")
     lammps(text, ranks=ranks)
@@ -87,7 +87,7 @@ def test_energy_and_force_of_each_particle(lammps, dim, options, ranks, newton):
     assert np.abs(force).max() > 0.01
     assert relative(found["f"] - plain["f"] - force, force) < 1e-12 * max(1.0, np.abs(plain["f"]).max() / np.abs(force).max())
     assert relative(found["c_E"] - plain["c_E"] - energy, energy) < 1e-11
-    assert np.array_equal(found["rho"], plain["rho"]) and np.array_equal(found["esph"], plain["esph"])
+    assert np.array_equal(found["c_rho"], plain["c_rho"])
 
 
 @pytest.mark.parametrize("options", ["", "delta 0 temp 0.01 4711"])
@@ -118,7 +118,7 @@ def test_total_energy(lammps, integrator):
         assert np.ptp(table["c_E[5]"]) > table["KinEng"].max() > 0.0
         errors.append(np.ptp(table["c_E"]) / np.ptp(table["c_E[5]"]))
     print(integrator, errors)
-    assert errors[1] < 1e-3 and errors[0] / errors[1] > 3.0
+    assert errors[1] < 2e-3 and errors[0] / errors[1] > 3.0
 
 
 def ellipse(dim, radius, aspect):
@@ -206,7 +206,7 @@ def test_restart_data_files_and_adapt(lammps):
 def test_table_and_time_step(lammps):
     particles = lattice(2, 8)
     model = f"{STYLE} delta 0\npair_coeff * * 1.0 10.0 0.0 0.0 3.0 cohesion 3000.0\n"
-    run = lammps(start(particles, lammps, model, "density rho0", timestep=0.002) + "fix T all sph/dt 1\nthermo_style custom step dt\nthermo 1\nrun 0\n")
+    run = lammps(start(particles, lammps, model, timestep=0.002) + "fix T all sph/dt 1\nthermo_style custom step dt\nthermo 1\nrun 0\n")
     names = re.search(r"( types .*)\n", run.log)[1].split("|")[0].split()
     row = re.search(r"( types .*)\n(.*)\n", run.log)[2].split()
     assert float(row[names.index("cohesion")]) == 3000.0
