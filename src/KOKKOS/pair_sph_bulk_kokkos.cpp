@@ -68,7 +68,7 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
 {
   if (fluid->model->choice.thermal) return "keyword temp";
   if (update->whichflag == 2) return "a minimization";
-  if (fluid->model->has_pair_energy()) return "a tension between two types";
+  if (fluid->model->has_pair_energy()) return "a tension of fluids";
   if (fluid->model->has_rheology()) return "a viscosity that is not constant";
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);

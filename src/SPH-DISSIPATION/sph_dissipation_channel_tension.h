@@ -11,9 +11,10 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Tension between two unlike fluids, from the energy of a pair a w_i w_j W(r) with the reference volumes w = m/rho0: a
-// central force, without curvature or normals.  A plane that divides two fluids has the tension a <|z|>/2, with <|z|> the
-// integral of |z| W.  PairEnergyKernel has W, which is not the kernel of the densities.
+// Tension, from energies of pairs with the reference volumes w = m/rho0: central forces, without curvature or normals.
+// tension: of the interface of two unlike fluids, a w_i w_j W(r).  A plane that divides the fluids has the tension a <|z|>/2,
+// with <|z|> the integral of |z| W.  PairEnergyKernel has W, which is not the kernel of the densities.
+// cohesion: of the free surface of a type; CohesionKernel has the energy.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -31,17 +32,34 @@ namespace SPHDissipation {
   struct TensionChannel : BaseChannel {
     static constexpr const char *NAME = "tension";
     static constexpr bool OF_MOTION = false, OPTIONAL = true, PAIR_ENERGY = true;
-    enum { SIGMA };    // of two unlike types: energy/area, in two dimensions energy/length
+    enum { SIGMA };       // of two unlike types: energy/area, in two dimensions energy/length
+    enum { COHESION };    // of a type, in the same unit
+    static constexpr int NTYPE = 1;
+    static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
+        {{"cohesion", "sigma", 1, 0, TENSION}}};
+    static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"cohesion", COHESION}}};
     static constexpr std::array<const char *, 1> UNLIKE_KEYWORDS = {"tension"};
 
     static double pair_energy(const PairFluid &fluid, const OwnWords &words)
     {
       return 2.0 * words.unlike[SIGMA] / PairEnergyKernel::mean_distance(fluid.dim, fluid.support);
     }
+    static double cohesion(const PairFluid &fluid, const OwnWords &words)
+    {
+      if (!fluid.like) return 0.0;
+      return CohesionKernel::coefficient(fluid.dim, fluid.support, words.type[COHESION]);
+    }
     template <class Add>
-    static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
+    static void add_columns(const PairFluid &fluid, const OwnWords &words, const double *,
+                            Add &&add)
     {
       add("tension", words.unlike[SIGMA]);
+      add("cohesion", fluid.like ? words.type[COHESION] : 0.0);
+    }
+    static const char *inadmissible_type(const double *type, int)
+    {
+      const double sigma = type[COHESION];
+      return (sigma >= 0.0 && std::isfinite(sigma)) ? nullptr : "cohesion must be >= 0";
     }
     static const char *inadmissible(const PairFluid &, const OwnWords &words)
     {
@@ -51,7 +69,8 @@ namespace SPHDissipation {
     // Return the step of capillary waves, J. P. Morris, Int. J. Numer. Methods Fluids 33, 333 (2000)
     static double wave_step(const OwnWords &words, const PairInertia &inertia)
     {
-      return capillary_step(inertia.rho, inertia.hsq, words.unlike[SIGMA]);
+      return capillary_step(inertia.rho, inertia.hsq,
+                            std::max(words.unlike[SIGMA], words.type[COHESION]));
     }
   };
 

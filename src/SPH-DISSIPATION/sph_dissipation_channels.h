@@ -172,6 +172,7 @@ namespace SPHDissipation {
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
     // by_rate: mu of any type is not constant.  Then alike: both types are one fluid; largest mu, and largest |zeta|
     bool by_rate = false, alike = false;
+    bool like = false;    // the types are the same
     double largest_mu = 0.0, largest_zeta = 0.0;
   };
 
@@ -204,7 +205,7 @@ namespace SPHDissipation {
     static constexpr bool OF_MOTION = true;
     // true: if all coefficients of pairs are 0, the loops leave out the terms, and the table leaves out the columns
     static constexpr bool OPTIONAL = false;
-    // pairs of unlike types have an energy, see pair_energy(), and the interface has waves, see wave_step()
+    // pairs have an energy, see pair_energy() and cohesion(), and the surface has waves, see wave_step()
     static constexpr bool PAIR_ENERGY = false;
     // Keywords of pair_coeff for a type, with NTYPE coefficients in all; names for other commands that vary these; keywords
     // of unlike types, each with one number (default 0), which are also the names for other commands
@@ -234,8 +235,10 @@ namespace SPHDissipation {
       return 0.0;
     }
 
-    // Return a in the energy of a pair, a w_i w_j W(r), W of PairEnergyKernel; return the largest stable step of the waves
+    // Return a in the energy of a pair of unlike types, a w_i w_j W(r), W of PairEnergyKernel; return A of CohesionKernel;
+    // return the largest stable step of the waves
     static double pair_energy(const PairFluid &, const OwnWords &) { return 0.0; }
+    static double cohesion(const PairFluid &, const OwnWords &) { return 0.0; }
     static double wave_step(const OwnWords &, const PairInertia &) { return UNLIMITED_STEP; }
 
     // Return the drag of single particles with these coefficients of their type, for force, heat, and noise
@@ -475,6 +478,16 @@ namespace SPHDissipation {
     double sum = 0.0;
     Channels::visit(has_spins(pair.shear), [&](auto channel) {
       sum += channel.pair_energy(pair, pair.words<decltype(channel)>());
+    });
+    return sum;
+  }
+
+  // Return A of the energy of cohesion of a pair, the sum over the channels
+  inline double cohesion(const TypePair &pair)
+  {
+    double sum = 0.0;
+    Channels::visit(has_spins(pair.shear), [&](auto channel) {
+      sum += channel.cohesion(pair, pair.words<decltype(channel)>());
     });
     return sum;
   }

@@ -360,7 +360,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.numneigh = list->numneigh;
   data.firstneigh = list->firstneigh;
   data.type = atom->type;
-  if (!par->uniform) {    // spare particles have a type, too
+  if (!par->uniform || !par->cohesion.empty()) {    // spare particles have a type, too
     types.assign(atom->type, atom->type + nall);
     types.resize(nall + BLOCK, 1);
     data.type = types.data();
@@ -447,6 +447,19 @@ void Engine::accumulate_flow(int place, std::vector<double> &rate)
   rate.assign(nall + BLOCK, 0.0);
   scalar_sums.run(*threads, rate.data(), rate.size(), [&](int k, double *sum) {
     loop(part(k), flow[place].data(), sum);
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::accumulate_cohesion(const CohesionRow *rows)
+{
+  const CohesionKernel kernel(par->dim, par->support);
+  CohesionData cohesion = {rows, par->cohesion.data(), par->ntypes_1 == 2, {}, {}};
+  std::copy_n(kernel.support_inv, 2, cohesion.support_inv);
+  std::copy_n(kernel.slope_norm, 2, cohesion.slope_norm);
+  force_sums.run(*threads, force, atom->nlocal + atom->nghost + BLOCK, [&](int k, ForceSum *sum) {
+    loops->cohesion(part(k), cohesion, sum);
   });
 }
 

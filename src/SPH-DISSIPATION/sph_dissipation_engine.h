@@ -98,9 +98,19 @@ namespace SPHDissipation {
     PairTally *tally;          // nullptr: none
   };
 
+  // Input of the loop of cohesion: A of two types, whether all types have the same A, numbers of CohesionKernel
+
+  struct CohesionData {
+    const CohesionRow *row;
+    const double *coeff;
+    bool alike;
+    double support_inv[2], slope_norm[2];
+  };
+
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
+  typedef void (*CohesionLoop)(const LoopData &, const CohesionData &, ForceSum *);
   typedef void (*RateLoop)(const LoopData &, const double *vol, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // sums for the gradient; flow, with the gradient
@@ -163,6 +173,7 @@ namespace SPHDissipation {
     NoiseLoop (*shared_work)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
+    CohesionLoop cohesion;
     FlowLoop (*flow)(bool alike);    // alike: all particles with a volume have one coefficient
     DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // alike: one impedance
     BoundaryLoops (*boundary)(Kernel);
@@ -302,6 +313,9 @@ namespace SPHDissipation {
 
     // Sum the rates that owned and ghost atoms get by the flow at a place, from flow[]; room for the spare ones
     void accumulate_flow(int place, std::vector<double> &rate);
+
+    // After pass 2: add the forces of cohesion to force[], from rows of owned, ghost, and spare particles
+    void accumulate_cohesion(const CohesionRow *);
 
     // Sum the diffusion of volume, width numbers for each owned and ghost atom; room for the spare ones
     void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,

@@ -35,6 +35,7 @@
 #include "sph_dissipation_neighbors.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
+#include "sph_dissipation_pair_energy.h"
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"

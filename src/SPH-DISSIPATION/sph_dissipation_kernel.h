@@ -149,6 +149,45 @@ namespace SPHDissipation {
     }
   };
 
+  // Kernel of the energy of cohesion, A w_i w_j [W(r; b R) - W(r; R)] with Wendland C6 and b = INNER.  Both parts
+  // have the integral 1: the energy and the pressure inside of a fluid vanish, and a surface lacks the energy A (1 - b) <|x|>/4
+  // per area.  The Fourier transform of the difference is positive, so that the energy keeps particles apart.
+
+  struct CohesionKernel {
+    static constexpr double INNER = 0.85;
+    double support_inv[2], weight_norm[2], slope_norm[2];    // of the inner part, of the outer one
+
+    CohesionKernel(int n, double support)
+    {
+      for (int k = 0; k < 2; k++) {
+        const double radius = (k == 0) ? INNER * support : support;
+        support_inv[k] = 1.0 / radius;
+        weight_norm[k] = WendlandC6::norm(n) * std::pow(support_inv[k], n);
+        slope_norm[k] = weight_norm[k] * support_inv[k] * support_inv[k];
+      }
+    }
+    double weight(double r) const { return part(0, r, true) - part(1, r, true); }
+    double slope(double r) const { return part(0, r, false) - part(1, r, false); }
+
+    // Return A for this tension of a free surface.  The particles at a surface are no section of a uniform fluid: the
+    // tension of drops is SURFACE times that of the integral, see test_cohesion.py
+    static double coefficient(int n, double support, double sigma)
+    {
+      constexpr double ALONG[] = {0.0, 1.0, 2.0 / KERNEL_PI, 0.5};    // <|x|>/<r>
+      constexpr double SURFACE[] = {1.0, 1.0, 1.33, 1.37};
+      const double mean = ALONG[n] * kernel_mean(Kernel::WENDLAND_C6, n, 1, support);
+      return 4.0 * sigma / (SURFACE[n] * (1.0 - INNER) * mean);
+    }
+
+   private:
+    double part(int k, double r, bool weight) const
+    {
+      const double q = r * support_inv[k];
+      if (q >= 1.0) return 0.0;
+      return weight ? weight_norm[k] * WendlandC6::shape(q) : slope_norm[k] * WendlandC6::slope(q);
+    }
+  };
+
   // Sums of V W and of V F r^2/n over a cubic lattice of this spacing, V = spacing^n: the integrals of both are 1
 
   struct LatticeSums {

@@ -630,6 +630,48 @@ namespace SPHDissipation {
       }
     }
 
+    // Add the forces of cohesion, after pass 2, see CohesionKernel
+
+    struct AllCoeffs {
+      static constexpr bool uses(int) { return true; }
+    };
+
+    inline void cohesion_loop(const LoopData &data, const CohesionData &cohesion, ForceSum *force)
+    {
+      const CohesionRow *const row = cohesion.row;
+      const CoeffTable<double> table(cohesion.coeff, data);
+      Coeffs<double, AllCoeffs> coeffs(table);
+      for (int ii = 0; ii < data.inum; ii++) {
+        const int i = data.ilist[ii];
+        const CohesionRow own = row[i];
+        const int n = data.count[ii];
+        const Offset *const neighbor = data.neighbor + data.first[ii];
+        Vec total[3] = {all(0.0), all(0.0), all(0.0)};
+
+        for (int k = 0; k < n; k += LANES) {
+          const Offset *const j = neighbor + k;
+          Vec other[4], r[3], on_j[4];
+          load_4_columns<WIDTH<CohesionRow>>(numbers(row), j, other);
+          fetch_ahead<WIDTH<CohesionRow>>(numbers(row), j);
+          for (int d = 0; d < 3; d++) r[d] = own.x[d] - other[d];
+          const Vec distance = square_root(dot(r, r));
+          Vec part[2];
+          for (int m = 0; m < 2; m++)
+            part[m] = cohesion.slope_norm[m] *
+                WendlandC6::slope(smaller(distance * cohesion.support_inv[m], all(1.0)));
+          if (!cohesion.alike) coeffs.load(table, i, j);
+          const Vec central = coeffs.a[0] * (own.w * other[3]) * (part[0] - part[1]);
+          for (int d = 0; d < 3; d++) {
+            total[d] += central * r[d];
+            on_j[d] = -central * r[d];
+          }
+          on_j[3] = all(0.0);
+          add_4_columns<WIDTH<ForceSum>>(numbers(force), j, on_j);
+        }
+        for (int d = 0; d < 3; d++) force[i].f[d] += sum(total[d]);
+      }
+    }
+
     inline FlowLoop choose_flow_loop(bool alike)
     {
       return alike ? flow_loop<true> : flow_loop<false>;
@@ -885,6 +927,7 @@ namespace SPHDissipation {
                              LOOPS::choose_eta_loop,
                              LOOPS::choose_work_loop,
                              LOOPS::particle_numbers,
+                             LOOPS::cohesion_loop,
                              LOOPS::choose_flow_loop,
                              LOOPS::choose_diffusion_loop,
                              LOOPS::choose_boundary_loops,

@@ -83,7 +83,8 @@ void FluidModel::derive(int dim, double support)
   par->ntypes_1 = n + 1;
   par->type.assign(n + 1, TypeParameters());
   par->pair.assign((n + 1) * (n + 1), PairCoeff());
-  par->pair_energy.assign(has_pair_energy() ? (n + 1) * (n + 1) : 0, 0.0);
+  par->pair_energy.assign((n + 1) * (n + 1), 0.0);
+  par->cohesion.assign((n + 1) * (n + 1), 0.0);
   for (int i = 1; i <= n; i++) {
     mix(i);
     par->type[i].keywords = TypeCoeffs(coeffs[i].keywords);
@@ -95,8 +96,8 @@ void FluidModel::derive(int dim, double support)
       const TypePair pair = pair_fluid(i, j);
       const int ij = i * (n + 1) + j, ji = j * (n + 1) + i;
       par->pair[ij] = par->pair[ji] = pair_coefficients(pair);
-      if (!par->pair_energy.empty())
-        par->pair_energy[ij] = par->pair_energy[ji] = pair_energy(pair);
+      par->pair_energy[ij] = par->pair_energy[ji] = pair_energy(pair);
+      par->cohesion[ij] = par->cohesion[ji] = cohesion(pair);
     }
     TypeCoeff &type = coeffs[i];
     const double intrinsic = intrinsic_kappa(i, i);
@@ -118,6 +119,13 @@ void FluidModel::derive(int dim, double support)
     if (!type.other && par->by_rate) check_rheology(i);
     if (choice.thermal) check_balance(i);
   }
+  const auto is_none = [](const auto &a) {
+    return std::all_of(a.begin(), a.end(), [](const auto &one) {
+      return one == 0.0;
+    });
+  };
+  if (is_none(par->pair_energy)) par->pair_energy.clear();
+  if (is_none(par->cohesion)) par->cohesion.clear();
   par->rate_factor = 0.5 * shear_factor(pair_fluid(1, 1));
   par->set_uniform();
   for (const PairCoeff &one : par->pair)
@@ -165,6 +173,7 @@ void FluidModel::mix(int i)
 TypePair FluidModel::pair_fluid(int i, int j) const
 {
   TypePair fluid;
+  fluid.like = (i == j);
   fluid.shear = choice.shear;
   fluid.dim = par->dim;
   fluid.support = par->support;
@@ -388,7 +397,7 @@ bool FluidModel::varies_no_flow(const char *name) const
 }
 
 /* ----------------------------------------------------------------------
-   Return true if pair_coeff gives any two types the coefficient of a pair energy.
+   Return true if pair_coeff gives any type, or any two types, the coefficient of a pair energy.
 ------------------------------------------------------------------------- */
 
 bool FluidModel::has_pair_energy() const
@@ -399,6 +408,9 @@ bool FluidModel::has_pair_energy() const
       for (int i = 1; channel.PAIR_ENERGY && coeffs && i <= atom->ntypes; i++)
         for (int j = 1; j < i; j++)
           if (pair_given[variable_of_pairs(name)][i][j] != 0.0) found = true;
+    for (const TypeKeyword &one : channel.TYPE_KEYWORDS)
+      for (int i = 1; channel.PAIR_ENERGY && coeffs && i <= atom->ntypes; i++)
+        if (!coeffs[i].other && coeffs[i].keywords[keyword(one.name)->first] != 0.0) found = true;
   });
   return found;
 }
@@ -409,6 +421,8 @@ bool FluidModel::is_of_pair_energy(const char *name) const
   Channels::visit(spins, [&](auto channel) {
     for (const char *own : channel.UNLIKE_KEYWORDS)
       if (channel.PAIR_ENERGY && strcmp(name, own) == 0) found = true;
+    for (const TypeVariable &own : channel.TYPE_VARIABLES)
+      if (channel.PAIR_ENERGY && strcmp(name, own.name) == 0) found = true;
   });
   return found;
 }

@@ -44,6 +44,7 @@ namespace SPHDissipation {
     std::vector<TypeParameters> type;    // by type, from 1
     std::vector<PairCoeff> pair;         // of types i and j: pair[i * ntypes_1 + j]
     std::vector<double> pair_energy;     // a of the energy of pairs, as pair; empty: none
+    std::vector<double> cohesion;        // A of the energy of cohesion, as pair; empty: none
 
     void set_uniform();          // sets uniform, inviscid, and optional, from pair
     void set_alike();            // sets the numbers of flows and sound, from type

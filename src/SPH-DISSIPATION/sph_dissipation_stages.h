@@ -31,7 +31,6 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class PairTally;
-  struct PairEnergyKernel;
 
   // A stage of the force computation: its sums over the pairs of pass 1, and its messages to and from ghost atoms.
   // Fluid::list_stages() has the order of the stages.
@@ -163,38 +162,6 @@ namespace SPHDissipation {
     double received(int groupbit) const;
 
     void forget();    // the rates of the last forces
-  };
-
-  // Energy of pairs of unlike types, a w_i w_j W(r) with the reference volumes w = m/rho0, and the force of this energy,
-  // after pass 2; see BaseChannel::pair_energy() and PairEnergyKernel
-
-  class PairEnergyStage : public Stage {
-   public:
-    using Stage::Stage;
-
-    bool active() const;
-    void forget();    // while it is not active, its pairs do not follow the neighbor lists
-    // Add the forces to the sums of the engine, with a tally of each pair, or nullptr
-    void run(NeighList *, PairTally *);
-    // Return the energy of the particles of a group, half of each pair, at the last run(), on this processor; add it to the
-    // energies of the particles (nullptr: to none)
-    double energy(double *each_atom, int groupbit) const;
-
-    double memory_usage() const override { return bytes(pairs, sums); }
-
-   private:
-    struct UnlikePair {
-      int i, j;
-      double energy;    // a w_i w_j, with the factor of rows
-    };
-    std::vector<UnlikePair> pairs;    // of the neighbor list
-    std::vector<double> energies;     // a of the types when they were found
-    ThreadSums<ForceSum> sums;
-
-    void find_pairs(NeighList *, const PairEnergyKernel &);
-    // Call function(pair, r_ij, r^2) for the pairs within the support radius
-    template <class Function>
-    void visit(std::size_t from, std::size_t to, Function &&function) const;
   };
 
   // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The particles keep the rates of volumes and

@@ -790,4 +790,4 @@ def test_tension_on_the_host(lammps):
     model = fluids("sph/bulk", 2, 2) + "pair_coeff 1 2 tension 0.7\n"
     (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, script("sph/bulk", particles, model, 5))
     assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
-    assert any("a tension between two types" in warning for warning in result.warnings)
+    assert any("a tension of fluids" in warning for warning in result.warnings)
