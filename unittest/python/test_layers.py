@@ -124,7 +124,7 @@ def test_a_formula_is_in_few_objects():
 
     compiled = [name for name in files()
                 if name.endswith(".cpp") and "sph_dissipation_channel_list.h" in add_included(name, set())]
-    assert 3 < len(compiled) < 15, compiled
+    assert 3 < len(compiled) <= 15, compiled
 
 
 def walks():
