@@ -452,7 +452,7 @@ void Fluid::list_stages()
 void Fluid::finish()
 {
   std::string lines;
-  for (const StageTime &one : times) {
+  for (StageTime &one : times) {
     double least, mean, most;
     MPI_Reduce(&one.seconds, &least, 1, MPI_DOUBLE, MPI_MIN, 0, world);
     MPI_Reduce(&one.seconds, &mean, 1, MPI_DOUBLE, MPI_SUM, 0, world);

@@ -155,7 +155,9 @@ def wave(t, a, b, w, phase, c):
     *(pytest.param(*case, marks=pytest.mark.long) for case in [(2, 20, NOISE, 1.0), (2, 30, NOISE, 1.0), (2, 20, "", 1.10), (2, 30, "", 1.10),
                                                                (3, 10, NOISE, 1.0), (3, 10, "", 1.16)])])
 def test_frequency_of_drops(lammps, dim, radius, options, wanted):
-    """The tension by the frequency of the oscillation, over sigma; omega^2 = 6 sigma/(rho r^3) and 8 sigma/(rho r^3).  The mean of three seeds."""
+    """The tension by the frequency of the oscillation, over sigma; omega^2 = 6 sigma/(rho r^3) and 8 sigma/(rho r^3).  The mean of three seeds.
+
+    The oscillation decays 1.4 to 3 times as fast as by viscosity alone, in three dimensions 1 to 1.5 times; Ohnesorge numbers 0.02 to 0.03."""
     optimize = pytest.importorskip("scipy.optimize")
     particles = ellipse(dim, radius, 1.3 if options else 1.15)
     r = (len(particles) / {2: np.pi, 3: 4 * np.pi / 3}[dim]) ** (1 / dim)
