@@ -274,7 +274,7 @@ MISTAKES = {
     "no kappa": ({"0.4 2.0 4.0": "0.4 4.0"}, r"ERROR: Illegal pair_coeff command: missing argument\(s\), 4 of 5 given; give rho0 c0 mu kappa rc"),
     "half a kernel": ({"^pair_style .*": "pair_style sph/bulk kernel wendland"}, r"ERROR: Unknown kernel wendland .*; use wendland/c2, wendland/c4, wendland/c6, cubic, quintic, or lucy"),
     "keyword of the pair style": ({"^pair_style .*": "pair_style sph/bulk kernal lucy"}, r"ERROR: Unknown pair_style sph/bulk keyword: kernal; use kernel, dim, eos, .*, or temp"),
-    "keyword of the coefficients": ({r"4\.0 +#": "4.0 yeild 0.1 1.0 #"}, r"ERROR: Unknown pair_coeff keyword .*: yeild; use yield, pb, gamma, .*, or thixotropy"),
+    "keyword of the coefficients": ({r"4\.0 +#": "4.0 yeild 0.1 1.0 #"}, r"ERROR: Unknown pair_coeff keyword .*: yeild; use yield, pb, gamma, .*, thixotropy, or cohesion"),
     "keyword of a fix": ({"density rho0": "vicous rkl2"}, r"ERROR: Unknown fix sph/bulk keyword: vicous; use viscous, density, .*, or iterations"),
     "keyword of a compute": ({"^(run .*)": r"compute e all sph/energy now\n\1"}, r"ERROR: Unknown compute sph/energy keyword: now: there are no keywords"),
     "noise without a seed": ({"^pair_style .*": "pair_style sph/bulk temp 0.01"}, r"ERROR: Illegal pair_style sph/bulk temp command: missing argument\(s\), 1 of 2 given; give T seed"),
