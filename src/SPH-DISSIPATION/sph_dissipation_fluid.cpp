@@ -451,18 +451,21 @@ void Fluid::list_stages()
 
 void Fluid::finish()
 {
+  if (times.empty()) return;
   std::string lines;
+  double own = timer->get_wall(Timer::TOTAL), total = 0.0;
+  MPI_Reduce(&own, &total, 1, MPI_DOUBLE, MPI_SUM, 0, world);
+  total /= comm->nprocs;
   for (StageTime &one : times) {
     double least, mean, most;
     MPI_Reduce(&one.seconds, &least, 1, MPI_DOUBLE, MPI_MIN, 0, world);
     MPI_Reduce(&one.seconds, &mean, 1, MPI_DOUBLE, MPI_SUM, 0, world);
     MPI_Reduce(&one.seconds, &most, 1, MPI_DOUBLE, MPI_MAX, 0, world);
     mean /= comm->nprocs;
-    lines +=
-        fmt::format("{:<15} | {:<10} | {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.2f}\n", one.name,
-                    one.calls, least, mean, most, 100.0 * mean / timer->get_wall(Timer::TOTAL));
+    lines += fmt::format("{:<15} | {:<10} | {:<10.5g} | {:<10.5g} | {:<10.5g} |{:6.2f}\n", one.name,
+                         one.calls, least, mean, most, 100.0 * mean / total);
   }
-  if (comm->me == 0 && !times.empty())
+  if (comm->me == 0)
     utils::logmesg(
         lmp,
         "\nStages of pair style {}:\n{:<15} |   calls    |  min time  |  avg time  |  max "
