@@ -14,7 +14,7 @@
 // Tension, from energies of pairs with the reference volumes w = m/rho0: central forces, without curvature or normals.
 // tension: of the interface of two unlike fluids, a w_i w_j W(r).  A plane that divides the fluids has the tension a <|z|>/2,
 // with <|z|> the integral of |z| W.  PairEnergyKernel has W, which is not the kernel of the densities.
-// cohesion: of the free surface of a type; CohesionKernel has the energy.
+// cohesion: of the free surface of a type, between types the geometric mean; CohesionKernel has the energy.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS
@@ -44,17 +44,20 @@ namespace SPHDissipation {
     {
       return 2.0 * words.unlike[SIGMA] / PairEnergyKernel::mean_distance(fluid.dim, fluid.support);
     }
+    // Return the geometric mean of two types
+    static double mean_cohesion(const OwnWords &words)
+    {
+      return sqrt(words.type[COHESION] * words.smaller[COHESION]);
+    }
     static double cohesion(const PairFluid &fluid, const OwnWords &words)
     {
-      if (!fluid.like) return 0.0;
-      return CohesionKernel::coefficient(fluid.dim, fluid.support, words.type[COHESION]);
+      return CohesionKernel::coefficient(fluid.dim, fluid.support, mean_cohesion(words));
     }
     template <class Add>
-    static void add_columns(const PairFluid &fluid, const OwnWords &words, const double *,
-                            Add &&add)
+    static void add_columns(const PairFluid &, const OwnWords &words, const double *, Add &&add)
     {
       add("tension", words.unlike[SIGMA]);
-      add("cohesion", fluid.like ? words.type[COHESION] : 0.0);
+      add("cohesion", mean_cohesion(words));
     }
     static const char *inadmissible_type(const double *type, int)
     {

@@ -172,13 +172,13 @@ namespace SPHDissipation {
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
     // by_rate: mu of any type is not constant.  Then alike: both types are one fluid; largest mu, and largest |zeta|
     bool by_rate = false, alike = false;
-    bool like = false;    // the types are the same
     double largest_mu = 0.0, largest_zeta = 0.0;
   };
 
-  // Coefficients from pair_coeff for one channel.  type: of a type, or the larger ones of two types; unlike: of unlike types
+  // Coefficients from pair_coeff for one channel.  type, smaller: of a type, or the larger and the smaller ones of two types;
+  // unlike: of unlike types
   struct OwnWords {
-    const double *type, *unlike;
+    const double *type, *smaller, *unlike;
     double flow = 0.0;    // mean coefficient of the flow of the channel
   };
 
@@ -391,7 +391,7 @@ namespace SPHDissipation {
 
   // A pair of types with its coefficients from pair_coeff for all channels
   struct TypePair : PairFluid {
-    TypeCoeffs type;    // the larger ones of both types
+    TypeCoeffs type, smaller;    // the larger and the smaller ones of both types
     double unlike[Channels::NUNLIKE + 1] = {};
     double flow[Flows::NUMBER] = {};    // mean of the types
 
@@ -400,7 +400,8 @@ namespace SPHDissipation {
     {
       double own = 0.0;
       if constexpr (std::is_base_of<BaseFlow, Channel>::value) own = flow[Flows::place<Channel>()];
-      return {type.of<Channel>(), unlike + Channels::first_of_unlike<Channel>(), own};
+      return {type.of<Channel>(), smaller.of<Channel>(),
+              unlike + Channels::first_of_unlike<Channel>(), own};
     }
   };
 

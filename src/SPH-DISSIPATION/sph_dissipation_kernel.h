@@ -162,7 +162,8 @@ namespace SPHDissipation {
       for (int k = 0; k < 2; k++) {
         const double radius = (k == 0) ? INNER * support : support;
         support_inv[k] = 1.0 / radius;
-        weight_norm[k] = WendlandC6::norm(n) * std::pow(support_inv[k], n);
+        weight_norm[k] = WendlandC6::norm(n);
+        for (int d = 0; d < n; d++) weight_norm[k] *= support_inv[k];
         slope_norm[k] = weight_norm[k] * support_inv[k] * support_inv[k];
       }
     }

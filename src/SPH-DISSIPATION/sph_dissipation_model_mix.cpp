@@ -173,7 +173,6 @@ void FluidModel::mix(int i)
 TypePair FluidModel::pair_fluid(int i, int j) const
 {
   TypePair fluid;
-  fluid.like = (i == j);
   fluid.shear = choice.shear;
   fluid.dim = par->dim;
   fluid.support = par->support;
@@ -183,8 +182,11 @@ TypePair FluidModel::pair_fluid(int i, int j) const
   for (int k = 0; k < Flows::NUMBER; k++)
     fluid.flow[k] = mean_coefficient(par->type[i].flow[k], par->type[j].flow[k]);
   fluid.heat_capacity = std::min(heat_capacity(i), heat_capacity(j));
-  for (int k = 0; k < Channels::NTYPE; k++)
-    fluid.type.a[k] = std::max(par->type[i].keywords.a[k], par->type[j].keywords.a[k]);
+  for (int k = 0; k < Channels::NTYPE; k++) {
+    const double a = par->type[i].keywords.a[k], b = par->type[j].keywords.a[k];
+    fluid.type.a[k] = std::max(a, b);
+    fluid.smaller.a[k] = std::min(a, b);
+  }
   for (int k = 0; k < nviscosity(); k++) fluid.viscosity[k] = viscosity(k, i, j);
   fluid.by_rate = par->by_rate;
   if (fluid.by_rate) {

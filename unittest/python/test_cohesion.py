@@ -1,7 +1,7 @@
 """Keyword cohesion of pair_coeff: energy and force, conserved quantities, the tension of drops, files, bad input.
 
-The reference is the energy of the theory page, A w_i w_j [W(r; b R) - W(r; R)] with Wendland C6, b = 0.85, and w = m/rho0, of particles of one type,
-as dense sums over all pairs.
+The reference is the energy of the theory page, A w_i w_j [W(r; b R) - W(r; R)] with Wendland C6, b = 0.85, and w = m/rho0, with the
+geometric mean of A of two types, as dense sums over all pairs.
 """
 
 import re
@@ -38,7 +38,7 @@ def factor(dim, support, sigma):
 
 
 def reference(x, particles, support):
-    """Energy and force of each particle."""
+    """Energy, force, and stress xx of each particle."""
     dim, kind = particles.dim, particles.type.astype(int)
     w = particles.mass / np.array((0.0, *RHO))[kind]
     r = x[:, None] - x[None]
@@ -46,14 +46,14 @@ def reference(x, particles, support):
     r[..., :dim] -= (length * np.round(r / length))[..., :dim]
     r[..., dim:] = 0.0
     distance = np.sqrt((r**2).sum(axis=2))
-    sigma = np.array([0.0, *SIGMA.values()])[kind]
-    a = factor(dim, support, 1.0) * sigma[:, None] * (kind[:, None] == kind[None]) * w[:, None] * w[None]
+    sigma = np.sqrt(np.array([0.0, *SIGMA.values()])[kind])
+    a = factor(dim, support, 1.0) * sigma[:, None] * sigma[None] * w[:, None] * w[None]
     np.fill_diagonal(a, 0.0)
     energy, force = 0.0, 0.0
     for sign, radius in (1, INNER * support), (-1, support):
         energy = energy + sign * a * NORM[dim] * radius**-dim * shape(distance / radius)
         force = force + sign * a * NORM[dim] * radius ** -(dim + 2) * slope(distance / radius)
-    return 0.5 * energy.sum(axis=1), (force[..., None] * r).sum(axis=1)
+    return 0.5 * energy.sum(axis=1), (force[..., None] * r).sum(axis=1), -0.5 * (force * r[..., 0] ** 2).sum(axis=1)
 
 
 def coefficients(dim, sigma, ntypes=3, mu=0.5):
@@ -84,10 +84,11 @@ def test_energy_and_force_of_each_particle(lammps, dim, options, ranks, newton):
         pytest.skip("the processor has no AVX2")
     lammps(text, ranks=ranks)
     plain, found = lammps.frame("plain.dump"), lammps.frame("cohesion.dump")
-    energy, force = reference(found["x"], particles, SUPPORT[dim])
+    energy, force, stress = reference(found["x"], particles, SUPPORT[dim])
     assert np.abs(force).max() > 0.01
     assert relative(found["f"] - plain["f"] - force, force) < 1e-12 * max(1.0, np.abs(plain["f"]).max() / np.abs(force).max())
     assert relative(found["c_E"] - plain["c_E"] - energy, energy) < 1e-11
+    assert relative(found["c_V[1]"] - plain["c_V[1]"] - stress, stress) < 1e-11 * max(1.0, np.abs(plain["c_V[1]"]).max() / np.abs(stress).max())
     assert np.array_equal(found["c_rho"], plain["c_rho"])
 
 
@@ -108,7 +109,7 @@ def test_momentum_and_angular_momentum(lammps, dim, ranks, options):
 def test_total_energy(lammps, integrator):
     """Kinetic, internal, elastic, and that of the surface: to second order in the time step."""
     errors = []
-    for timestep in 0.02, 0.01:
+    for timestep in 0.01, 0.005:
         particles = drop(2, 8.0)
         particles.type[:] = 1
         particles.x[:, 0] *= 1.1
@@ -119,7 +120,7 @@ def test_total_energy(lammps, integrator):
         assert np.ptp(table["c_E[5]"]) > table["KinEng"].max() > 0.0
         errors.append(np.ptp(table["c_E"]) / np.ptp(table["c_E[5]"]))
     print(integrator, errors)
-    assert errors[1] < 2e-3 and errors[0] / errors[1] > 3.0
+    assert errors[1] < 1e-3 and errors[0] / errors[1] > 3.0
 
 
 def ellipse(dim, radius, aspect):
@@ -132,13 +133,13 @@ def ellipse(dim, radius, aspect):
     return particles.where(((x[:, :dim] / axes) ** 2).sum(axis=1) < 1)
 
 
-def shapes(lammps, particles, options, coeffs, time, timestep=0.05):
+def shapes(lammps, particles, options, coeffs, time, timestep=0.05, end=""):
     """Run for this time; return times, logarithm of the aspect, and the kinetic energies."""
     dim = particles.dim
     text = start(particles, lammps, f"{STYLE} kernel wendland/c4 {options}\npair_coeff * * 1.0 10.0 {coeffs} 5.0 cohesion 1.0\n", "", timestep, boundary=free(dim))
     across = "(y*y+z*z)/2" if dim == 3 else "y*y"
     text += (f"neighbor 0.6 bin\nvariable a atom x*x\nvariable b atom {across}\ncompute M all reduce ave v_a v_b\nthermo_style custom time c_M[1] c_M[2] ke\n"
-             + FULL + f"thermo 10\nrun {round(time / timestep)}\n")
+             + FULL + f"thermo 10\nrun {round(time / timestep)}\n" + end)
     table = lammps(text, ranks=2, timeout=600).thermo()[-1]
     return table["Time"], np.log(table["c_M[1]"] / table["c_M[2]"]), table["KinEng"]
 
@@ -157,7 +158,7 @@ def wave(t, a, b, w, phase, c):
 def test_frequency_of_drops(lammps, dim, radius, options, wanted):
     """The tension by the frequency of the oscillation, over sigma; omega^2 = 6 sigma/(rho r^3) and 8 sigma/(rho r^3).  The mean of three seeds.
 
-    The oscillation decays 1.4 to 3 times as fast as by viscosity alone, in three dimensions 1 to 1.5 times; Ohnesorge numbers 0.02 to 0.03."""
+    The oscillation decays 1.4 to 2.4 times as fast as by viscosity alone, in three dimensions 0.9 to 1.7 times; Ohnesorge numbers 0.02 to 0.03."""
     optimize = pytest.importorskip("scipy.optimize")
     particles = ellipse(dim, radius, 1.3 if options else 1.15)
     r = (len(particles) / {2: np.pi, 3: 4 * np.pi / 3}[dim]) ** (1 / dim)
@@ -173,18 +174,25 @@ def test_frequency_of_drops(lammps, dim, radius, options, wanted):
     viscous = {2: 4, 3: 5}[dim] * 0.1 / r**2
     print(f"{dim}d, radius {r:.2f}, {options or 'no noise'}: tension {np.round(tension, 3)} sigma, decay over that by viscosity {np.round(np.array(decay) / viscous, 2)}")
     assert np.mean(tension) == pytest.approx(wanted, rel=0.04)
-    assert 0.8 < np.mean(decay) / viscous < 3.5
+    least, most = {2: (1.4, 2.4), 3: (0.9, 1.7)}[dim]
+    assert least < np.mean(decay) / viscous < most
 
 
-def test_square_to_circle(lammps):
-    """A square drop becomes round, and comes to rest with its particles apart."""
-    particles = lattice(2, 16)
+def test_rectangle_to_circle(lammps):
+    """A drop of 20 by 12 spacings becomes round, and comes to rest with its particles apart."""
+    particles = lattice(2, (20, 12))
     particles.x = particles.x - 0.5 * (particles.lo + particles.hi)
-    particles.lo, particles.hi = particles.lo - particles.hi, particles.hi - particles.lo
-    time, aspect, kinetic = shapes(lammps, particles, "", "1.0 2.0", 300.0)
-    text = lammps.results[-1].log
-    assert "ERROR" not in text and abs(aspect[-1]) < 0.02
-    assert kinetic[-1] < 1e-4 * 2 * np.pi * 16 / np.sqrt(np.pi)
+    particles.lo, particles.hi = particles.lo - 20.0, particles.hi + 20.0
+    time, aspect, kinetic = shapes(lammps, particles, "", "1.0 2.0", 400.0, end="write_dump all custom end.dump id x y modify format float %.17g sort id\n")
+    x = np.column_stack([lammps.frame("end.dump").columns[k] for k in "xy"])
+    x = x - x.mean(axis=0)
+    apart = np.sqrt(((x[:, None] - x[None]) ** 2).sum(axis=2)) + 9 * np.eye(len(x))
+    angles = np.linspace(0, np.pi, 12, endpoint=False)
+    widths = np.ptp(x @ np.array([np.cos(angles), np.sin(angles)]), axis=0) + 1.0
+    print(f"aspect {np.exp(0.5 * aspect[-1]):.4f}, widths {widths.min():.3f} to {widths.max():.3f}, least distance {apart.min():.3f}, kinetic energy {kinetic[-1]:.1e}")
+    assert abs(0.5 * aspect[-1]) < 0.01 and np.ptp(widths) < 1.0
+    assert apart.min() > 0.5
+    assert kinetic[-1] < 1e-4 * np.sqrt(4 * np.pi * len(x))
 
 
 def test_restart_data_files_and_adapt(lammps):

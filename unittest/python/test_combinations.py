@@ -125,7 +125,7 @@ FEATURES = {
     "implicit": Feature(Lines(integrator=("viscous implicit tolerance 1e-13",)), nearly=Lines(), nearly_with={"noise": 2e-3}),
     "gravity": Feature(body("gravity 5.0[v/t] vector 0.8 -0.6 0"), body("addforce v_mx v_my 0")),
     "walls": Feature(walls("v_U"), walls("0.3[v]")),
-    "dense_walls": Feature(walls("0.3[v]") + Lines(wall_density=4.0), walls("0.3[v]"), not_plain_with=("adapt", "overlay", "interdrag", "tension")),
+    "dense_walls": Feature(walls("0.3[v]") + Lines(wall_density=4.0), walls("0.3[v]"), not_plain_with=("adapt", "overlay", "interdrag", "tension", "cohesion")),
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused=NOT_WITH_BODIES),
     "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05[T]"),
                           refused={**NOT_WITH_BODIES, "noise": "conductivity"}),
@@ -165,6 +165,7 @@ FEATURES = {
                                  "variable dragy atom -0.3[pt/ll]*c_state[1]*(c_state[3]+0.1[v])", "compute drag fluid reduce sum v_dragx v_dragy"))),
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8[pt/ll]",))),
     "tension": Feature(Lines(types=2, unlike=("tension 0.8[pl]",))),
+    "cohesion": Feature(Lines(keywords=("cohesion 5.0[pl]",)), refused={"surface": "tension yes"}),
     "thinning": Feature(Lines(keywords=("power 0.6 0.05[pt] 1.5[pt] yield 0.05[p] 5[t]",)), refused={**NOT_WITH_LAWS, "open": "power", "noise": "drift"}),
     "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05[T] 0.02[T] 1.5",)),
                          Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05[T] 0.04[T] {1.5 * np.exp(1.25)}",)),
@@ -187,7 +188,7 @@ FEATURES = {
 NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies"), ("bodies", "contact"), ("hot_bodies", "contact"), ("walls", "dense_walls")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
 # and the random forces of a drag are no pairs'
-NO_BALANCE = {("walls", "open"): "", ("dense_walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger"}
+NO_BALANCE = {("walls", "open"): "", ("dense_walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger", ("open", "cohesion"): ""}
 PAIRS = [(name,) for name in FEATURES] + [pair for pair in itertools.combinations(FEATURES, 2) if pair not in NEVER]
 PAIRS += [("split", "reset_ahead", "restart")]  # all three have to do with how long ago the last event of a particle was
 
@@ -484,7 +485,7 @@ ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*",
             "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
             "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
             "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant", "thixotropy": r"\*thixotropy\*|iscosities that are not constant",
-            "heat": r"\*(conductivity|gruneisen)\*", "solute": r"\*solute\*", "gas": r"\*eos ideal\*"}
+            "cohesion": r"\*cohesion\*", "heat": r"\*(conductivity|gruneisen)\*", "solute": r"\*solute\*", "gas": r"\*eos ideal\*"}
 # sentences that say it in another way
 REQUIRED = {frozenset(["thinning", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["thixotropy", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["thixotropy", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",

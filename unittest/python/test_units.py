@@ -167,7 +167,7 @@ FLOWS = {
                  fixes=STICK + BODY + "fix g all gravity 1.0[v/t] vector 0 0 -1\n"),
     "rotating": Flow(walls=True, fixes="fix low low sph/wall rotate 3.0[l] 3.0[l] 0 0 0 1 0.2[1/t] slip free\nfix high high sph/wall\n"),
     "surface": Flow(walls=True, pair="density continuity volume mass", types=2, second="0.5[r]", fixes=STICK),
-    "tension": Flow(types=2, unlike="tension 0.8[pl] interdrag 0.8[pt/ll]", integrator="shift 0.5[v]"),
+    "tension": Flow(types=2, unlike="tension 0.8[pl] interdrag 0.8[pt/ll]", coeff="cohesion 0.4[pl]", integrator="shift 0.5[v]"),
     "step": Flow(walls=True, fixes=STICK + "fix dt all sph/dt 1\n", values=(("dt", "t"),)),
     "refined": Flow(pair="volume mass", fixes="variable t atom 1.0[lll]*(1.0-0.8*(x<3[l]))\nfix R fluid sph/refine 2 volume v_t\n"),
     "refined_spins": Flow(**SPIN, pair="volume mass", fixes="fix R fluid sph/refine 2 spacing 1.4[l]\n"),
