@@ -215,13 +215,21 @@ void Engine::set_rows()
     energy.assign(atom->esph, atom->esph + atom->nlocal + atom->nghost);
     with_states.esph = energies = energy.data();
   }
-  *atom_rows = {*par,        par->type.data(), atom->nlocal, particle,
-                density,     zeta_term,        &ONE,         0,
-                atom->type,  atom->mask,       atom->rmass,  energies,
-                atom->rho,   atom->drho,       atom->vfrac,  atom->desph,
-                with_states, state_pressure,   {},           Fields::of(atom)->rho_sum};
+  *atom_rows = {
+      *par,        par->type.data(), atom->nlocal, particle,      density,  zeta_term, &ONE,
+      0,           atom->type,       atom->mask,   atom->rmass,   energies, atom->rho, atom->drho,
+      atom->vfrac, atom->desph,      with_states,  state_pressure};
   for (int k = 0; k < Flows::NUMBER; k++) atom_rows->flow[k] = flow[k].data();
+  const Fields &fields = *Fields::of(atom);
+  atom_rows->rho_sum = fields.rho_sum;
+  atom_rows->shear_rate = fields.shear_rate;
+  atom_rows->vol_rate = fields.vol_rate;
+  atom_rows->vol_heat = fields.vol_heat;
+  atom_rows->vol_support = fields.vol_support;
   atom_rows->viscosity = viscosity.data();
+  atom_rows->pair = par->pair.data();
+  atom_rows->body_bits = body_bits;
+  atom_rows->keeps_bodies = keeps_bodies;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -353,6 +361,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   }
   if (!par->own_temperatures) forget_wall_energy();
   set_rows();
+  keeps_bodies = false;
   set_weights();
 
   data.inum = list->inum;

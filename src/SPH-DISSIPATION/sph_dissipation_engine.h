@@ -352,10 +352,9 @@ namespace SPHDissipation {
 
     // Sum over these pairs on all threads, each with its rows of the neighbor list.  function(i, j, entry, sum) adds to
     // sum[0] ... sum[n - 1]; sum is total, or is added to total later
-    template <class Row, class Function>
-    void sum_pairs(ThreadSums<Row> &row_sums, Row *total, std::size_t n, Function &&function) const
+    template <class Function> void sum_pairs(double *total, std::size_t n, Function &&function)
     {
-      row_sums.run(*threads, total, n, [&](int k, Row *sum) {
+      scalar_sums.run(*threads, total, n, [&](int k, double *sum) {
         for (int ii = first_row[k]; ii < first_row[k + 1]; ii++)
           visit_pairs(ii, [&](int i, int j, bigint entry) {
             function(i, j, entry, sum);

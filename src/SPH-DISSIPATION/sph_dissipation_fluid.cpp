@@ -72,18 +72,18 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     Pointers(lmp), pair(pair), spins(spins), style(spins ? "sph/micropolar" : "sph/bulk"),
     model(new FluidModel(lmp, style, spins)), engine(new Engine(lmp)),
     exchange(new Exchange(lmp, pair)), search(new NeighborSearch(lmp, *exchange)),
-    density(new DensityStage(lmp, *engine, *exchange)),
-    limit(new LimitStage(lmp, *engine, *exchange)),
-    viscosity(new ViscosityStage(lmp, *engine, *exchange)),
-    pressure(new PressureStage(lmp, *engine, *exchange)),
-    forces(new ForceStage(lmp, *engine, *exchange)), state(new StateStage(lmp, *engine, *exchange)),
-    flows(new FlowStage(lmp, *engine, *exchange)),
-    diffusion(new DiffusionStage(lmp, *engine, *exchange)),
+    host(new HostSpace(lmp, *engine, *exchange)), density(new DensityStage<HostSpace>(lmp, *host)),
+    limit(new LimitStage<HostSpace>(lmp, *host)),
+    viscosity(new ViscosityStage<HostSpace>(lmp, *host)),
+    pressure(new PressureStage<HostSpace>(lmp, *host)),
+    forces(new ForceStage(lmp, *engine, *exchange)), state(new StateStage<HostSpace>(lmp, *host)),
+    flows(new FlowStage<HostSpace>(lmp, *host)),
+    diffusion(new DiffusionStage<HostSpace>(lmp, *host)),
     pair_energies(new PairEnergyStage(lmp, *engine, *exchange)),
     open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     contact(new ContactStage(lmp, *engine, *exchange, *boundary, style)),
-    shift(new ShiftStage(lmp, *engine, *exchange)),
+    shift(new ShiftStage<HostSpace>(lmp, *host)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
     temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary))
@@ -370,12 +370,13 @@ void Fluid::list_stages()
   const auto add_passes = [&](bool rates) {
     add(true, "densities", MOTION, VOLUMES | SLOPES, call(*this, &Fluid::sum_density));
     add_wall_volumes(walls && noisy);    // the bound of the noise is with these volumes
-    add(par.limit != Limit::NO, "bound", VOLUMES | SLOPES, BOUNDS, call(*limit, &LimitStage::run));
+    add(par.limit != Limit::NO, "bound", VOLUMES | SLOPES, BOUNDS,
+        call(*limit, &LimitStage<HostSpace>::run));
     add_wall_volumes(walls && !noisy);
     add(par.by_rate && rates, "shear rates", VOLUMES, VISCOSITIES,
         call(*this, &Fluid::find_viscosities));
     add(par.by_rate && !rates, "kept rates", VOLUMES, VISCOSITIES,
-        call(*viscosity, &ViscosityStage::keep, all_bits));
+        call(*viscosity, &ViscosityStage<HostSpace>::keep, all_bits));
     add(true, "pressures", VOLUMES, PRESSURES, [this, bits](StepData &step) {
       step.nbeyond = pressure->run(bound(), bits);
     });
@@ -429,8 +430,8 @@ void Fluid::list_stages()
   add_passes(!viscous->active());    // else the rates of shear are those of the guess
   add_temperatures(stiff_heat && !par.thermal_pressure);    // no force depends on heat
   add(par.loops_of_flows, "flows", SLOPES | FORCES, FORCES, [this](StepData &) {
-    flows->run([this](std::vector<double> &heat) {
-      boundary->add_surface_heat(heat);
+    flows->run([this]() {
+      boundary->add_surface_heat(engine->flow_rate[HEAT_FLOW]);
     });
   });
   if (par.delta > 0.0 && update->whichflag != 2) {
@@ -438,7 +439,7 @@ void Fluid::list_stages()
       if (diffusion_is_due()) diffusion->evaluate(all_bits, integrated);
     });
     add(true, "diffusion heat", FORCES, FORCES,
-        call(*diffusion, &DiffusionStage::add_heat, all_bits, integrated));
+        call(*diffusion, &DiffusionStage<HostSpace>::add_heat, all_bits, integrated));
   }
   add(zones, "ledger", SLOPES | PRESSURES, NOTHING, call(*open, &OpenStage::sum_impacts, list));
   add(viscous->active() || warm, "totals", SUMS, SUMS, call(*forces, &ForceStage::collect));
@@ -605,8 +606,8 @@ void Fluid::set_step(double dt)
 
 void Fluid::advance_states()
 {
-  state->advance(not_fluid(),
-                 model->choice.thermal ? noise->draw_for_states() : std::vector<double>());
+  const auto random = model->choice.thermal ? noise->draw_for_states() : std::vector<double>();
+  state->advance(not_fluid(), random.data(), atom->nlocal ? random.size() / atom->nlocal : 0);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -1305,7 +1306,7 @@ double Fluid::memory_usage() const
 {
   return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
       open->memory_usage() + boundary->memory_usage() + contact->memory_usage() +
-      shift->memory_usage() + noise->memory_usage() + viscosity->memory_usage() +
+      shift->memory_usage() + noise->memory_usage() + host->memory_usage() +
       viscous->memory_usage() + temperature->memory_usage() + diffusion->memory_usage() +
       pair_energies->memory_usage();
 }

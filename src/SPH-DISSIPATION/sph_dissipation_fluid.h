@@ -30,29 +30,30 @@ namespace SPHDissipation {
 
   class BoundaryStage;
   struct Changes;
-  class ShiftStage;
-  class DensityStage;
-  class DiffusionStage;
+  template <class Space> class ShiftStage;
+  template <class Space> class DensityStage;
+  template <class Space> class DiffusionStage;
   class Engine;
   class Exchange;
   class FluidModel;
   struct ForceSum;
   class ContactStage;
   class ForceStage;
-  class FlowStage;
+  template <class Space> class FlowStage;
   class FluidState;
-  class LimitStage;
+  class HostSpace;
+  template <class Space> class LimitStage;
   class NeighborSearch;
   class NoiseStage;
   class OpenStage;
   class PairEnergyStage;
   class PairTally;
   struct StepData;
-  class PressureStage;
-  class StateStage;
+  template <class Space> class PressureStage;
+  template <class Space> class StateStage;
   class TemperatureStage;
   class Threads;
-  class ViscosityStage;
+  template <class Space> class ViscosityStage;
   class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity.  Forces: pressure of an equation of state, viscous forces
@@ -76,14 +77,15 @@ namespace SPHDissipation {
     const std::unique_ptr<Engine> engine;
     const std::unique_ptr<Exchange> exchange;
     const std::unique_ptr<NeighborSearch> search;
-    const std::unique_ptr<DensityStage> density;
-    const std::unique_ptr<LimitStage> limit;
-    const std::unique_ptr<ViscosityStage> viscosity;
-    const std::unique_ptr<PressureStage> pressure;
+    const std::unique_ptr<HostSpace> host;
+    const std::unique_ptr<DensityStage<HostSpace>> density;
+    const std::unique_ptr<LimitStage<HostSpace>> limit;
+    const std::unique_ptr<ViscosityStage<HostSpace>> viscosity;
+    const std::unique_ptr<PressureStage<HostSpace>> pressure;
     const std::unique_ptr<ForceStage> forces;
-    const std::unique_ptr<StateStage> state;
-    const std::unique_ptr<FlowStage> flows;
-    const std::unique_ptr<DiffusionStage> diffusion;
+    const std::unique_ptr<StateStage<HostSpace>> state;
+    const std::unique_ptr<FlowStage<HostSpace>> flows;
+    const std::unique_ptr<DiffusionStage<HostSpace>> diffusion;
     const std::unique_ptr<PairEnergyStage> pair_energies;
 
    public:
@@ -93,7 +95,7 @@ namespace SPHDissipation {
     const std::unique_ptr<OpenStage> open;
     const std::unique_ptr<BoundaryStage> boundary;
     const std::unique_ptr<ContactStage> contact;
-    const std::unique_ptr<ShiftStage> shift;
+    const std::unique_ptr<ShiftStage<HostSpace>> shift;
     const std::unique_ptr<NoiseStage> noise;
     const std::unique_ptr<ViscousStage> viscous;
     const std::unique_ptr<TemperatureStage> temperature;    // implicit conduction

@@ -132,14 +132,17 @@ namespace SPHDissipation {
       slope_norm = 4.0 * weight_norm * support_sq_inv;
       rows = ROWS[n] * support_sq_inv;
     }
-    double weight(double rsq) const
+    SPH_FUNCTION double weight(double rsq) const
     {
       const double rest = 1.0 - rsq * support_sq_inv;
       return weight_norm * rest * rest;
     }
-    double slope(double rsq) const { return slope_norm * (1.0 - rsq * support_sq_inv); }
+    SPH_FUNCTION double slope(double rsq) const
+    {
+      return slope_norm * (1.0 - rsq * support_sq_inv);
+    }
     // Return the factor that corrects the sum over rows of particles with these distances V^(1/n)
-    double of_rows(double d_i, double d_j) const { return 1.0 + rows * d_i * d_j; }
+    SPH_FUNCTION double of_rows(double d_i, double d_j) const { return 1.0 + rows * d_i * d_j; }
 
     // Return the integral of |z| W, a length
     static double mean_distance(int n, double support)
@@ -167,8 +170,8 @@ namespace SPHDissipation {
         slope_norm[k] = weight_norm[k] * support_inv[k] * support_inv[k];
       }
     }
-    double weight(double r) const { return part(0, r, true) - part(1, r, true); }
-    double slope(double r) const { return part(0, r, false) - part(1, r, false); }
+    SPH_FUNCTION double weight(double r) const { return part(0, r, true) - part(1, r, true); }
+    SPH_FUNCTION double slope(double r) const { return part(0, r, false) - part(1, r, false); }
 
     // Return A for this tension of a free surface.  The particles at a surface are no section of a uniform fluid: the
     // tension of drops is SURFACE times that of the integral, see test_cohesion.py
@@ -181,7 +184,7 @@ namespace SPHDissipation {
     }
 
    private:
-    double part(int k, double r, bool weight) const
+    SPH_FUNCTION double part(int k, double r, bool weight) const
     {
       const double q = r * support_inv[k];
       if (q >= 1.0) return 0.0;

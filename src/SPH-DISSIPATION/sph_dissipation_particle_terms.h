@@ -188,8 +188,15 @@ namespace SPHDissipation {
     StateRows states;
     double *state_pressure;          // read if any type has states
     FlowRow *flow[Flows::NUMBER];    // of the flows of any type
-    double *rho_sum = nullptr;       // see Fields; with density continuity
-    double *viscosity = nullptr;     // mu, if mu of any type is not constant
+    double *rho_sum = nullptr;       // see Fields, as the next four; with density continuity
+    double *shear_rate = nullptr;    // of owned particles, as the next three
+    double *vol_rate = nullptr, *vol_heat = nullptr, *vol_support = nullptr;
+    double *viscosity = nullptr;        // mu, if mu of any type is not constant
+    const PairCoeff *pair = nullptr;    // of types i and j: pair[i * par.ntypes_1 + j]
+
+    // group bits of bodies; true: these densities keep rho of bodies, see add_offset()
+    int body_bits = 0;
+    bool keeps_bodies = false;
 
     // Return w of the form volume mass
 
@@ -213,9 +220,9 @@ namespace SPHDissipation {
     // Density continuity: replace c of an owned particle, a sum, by rho/m.  Add to rho the change of the sum since the last
     // forces; at the first forces keep rho, or set rho0 if rho is 0.  Walls and open zones have the sum alone; so have
     // bodies, until BoundaryStage::set_frozen() sets their density.  rho_sum of a body is minus the sum without its own
-    // body; keeps: do not change rho of bodies.
+    // body.
 
-    SPH_FUNCTION void add_offset(int i, int not_fluid, int bodies = 0, bool keeps = false) const
+    SPH_FUNCTION void add_offset(int i, int not_fluid) const
     {
       constexpr double LEAST =
           0.1;    // of rho0, for spray, where the sum has lost nearly all neighbors
@@ -231,9 +238,9 @@ namespace SPHDissipation {
         else if (!(now > 0.0))
           now = rho0;
       } else {
-        if (!(mask[i] & bodies) || !(before < 0.0 && now > 0.0)) return;
+        if (!(mask[i] & body_bits) || !(before < 0.0 && now > 0.0)) return;
         sum = -all;
-        if (!keeps) now += all + before;
+        if (!keeps_bodies) now += all + before;
       }
       if (now < LEAST * rho0) now = LEAST * rho0;
       rho[i] = now;
@@ -280,14 +287,24 @@ namespace SPHDissipation {
       return own.zeta;
     }
 
-    // Set mu of an owned particle at a rate of shear; -1: not fluid, pairs take mu of the other particle
+    // Set the rate of shear of an owned particle from the sum of shear_rate_squared(); 0: not fluid
 
-    void set_viscosity(int i, double rate, int not_fluid) const
+    SPH_FUNCTION void set_shear_rate(int i, double sum, int not_fluid) const
+    {
+      const double square = is_fluid(i, not_fluid)
+          ? shear_rate_squared(par.dim, par.rate_factor, sum, density[i].cdot / density[i].c)
+          : 0.0;
+      shear_rate[i] = (square > 0.0) ? sqrt(square) : 0.0;
+    }
+
+    // Set mu of an owned particle at its rate of shear; -1: not fluid, pairs take mu of the other particle
+
+    SPH_FUNCTION void set_viscosity(int i, int not_fluid) const
     {
       const TypeParameters &own = types[type[i]];
       viscosity[i] = is_fluid(i, not_fluid)
-          ? Rheology::viscosity(own.keywords.rheology(), own.mu + states.viscosity(i), rho[i], rate,
-                                states.temperature(i))
+          ? Rheology::viscosity(own.keywords.rheology(), own.mu + states.viscosity(i), rho[i],
+                                shear_rate[i], states.temperature(i))
           : -1.0;
     }
 

@@ -18,6 +18,8 @@
 
 #include "sph_dissipation_function.h"
 
+#include <cstddef>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
@@ -80,6 +82,26 @@ namespace SPHDissipation {
     double is_boundary;    // 1
     double w[3];
     double crosses;    // 1 if its row of the neighbor list has pairs of the fluid with a boundary
+  };
+
+  // A pair within the support, from the side of particle i
+
+  struct PairPlace {
+    double r[3];           // r_i - r_j
+    double rsq, length;    // |r|^2, |r|
+    double slope;          // F
+    double shape;          // W/W(0), for sums with SHAPE
+  };
+
+  // Component d of a vector of particle i, with the strides of the array
+
+  struct VectorField {
+    double *first;
+    std::size_t by_particle, by_component;
+    SPH_FUNCTION double &at(int i, int d) const
+    {
+      return first[i * by_particle + d * by_component];
+    }
   };
 
 }    // namespace SPHDissipation

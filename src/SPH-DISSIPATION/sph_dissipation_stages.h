@@ -18,7 +18,7 @@
 #include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_rows.h"
 #include "sph_dissipation_shift_terms.h"
-#include "sph_dissipation_threads.h"
+#include "sph_dissipation_space.h"
 
 #include <functional>
 #include <vector>
@@ -52,14 +52,28 @@ namespace SPHDissipation {
     int nforce() const;
   };
 
+  // A stage that runs on the host or on a device: the functions are in sph_dissipation_shared_stages.h.  They are public,
+  // because CUDA requires this of functions with lambdas.  not_fluid = bits of the groups of walls and open zones
+
+  template <class Space> class SharedStage : protected Pointers {
+   public:
+    template <class T> using Array = typename Space::template Array<T>;
+
+    SharedStage(class LAMMPS *lmp, Space &space) : Pointers(lmp), space(space) {}
+
+   protected:
+    Space &space;
+    int nall() const;    // owned and ghost atoms
+  };
+
   // Pass 1: density c of the reference volumes w (number density if w = 1), and its rate; then volume and mass density, see
   // ParticleRows::set_density()
 
-  class DensityStage : public Stage {
+  template <class Space> class DensityStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
-    // Run with extrapolated velocity and spin; nullptr: zero.  not_fluid = bits of the groups of walls and open zones
+    // Run with extrapolated velocity and spin; nullptr: zero
 
     void run(NeighList *, double **vest, double **omegaest, int not_fluid, bool slopes_read = true);
 
@@ -69,8 +83,8 @@ namespace SPHDissipation {
     void run(NeighList *, double **vest, double **omegaest, bool at_rest, double missing,
              int not_fluid, bool slopes_read);
 
-   private:
-    void sum(NeighList *, double **vest, double **omegaest, int not_fluid, bool slopes_read);
+    // Send the values of owned particles to ghosts; then set the densities of all particles from number first on
+
     void send(bool with_states, int flows, int not_fluid, int first);
   };
 
@@ -79,41 +93,33 @@ namespace SPHDissipation {
   // where a_ij F V_i V_j is the coefficient of (u.e)^2 in the shear term.  The total dissipation is non-negative for any
   // velocities if zeta_i B_i >= -1/2 for all particles (theory page).
 
-  class LimitStage : public Stage {
+  template <class Space> class LimitStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
     void run();    // with the volumes of particles set
-    double memory_usage() const override { return bytes(bound, sums); }
+    double memory_usage() const { return Space::bytes_of(bound); }
 
-    std::vector<double> bound;    // B of owned and ghost atoms
-
-   private:
-    ThreadSums<double> sums;
+    typename Space::template Array<double> bound;    // B of owned and ghost atoms
   };
 
   // Viscosities that are not constant, see sph_dissipation_rheology.h; needs the volumes of particles
 
-  class ViscosityStage : public Stage {
+  template <class Space> class ViscosityStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
     // run(): set viscosities from the rates of shear at the present velocities; owned particles keep these rates.  keep():
     // set viscosities from the kept rates
     void run(int not_fluid);
     void keep(int not_fluid);
-
-    double memory_usage() const override { return bytes(rates); }
-
-   private:
-    std::vector<double> rates;    // of owned and ghost atoms
   };
 
   // Pressure and bulk term of all fluid particles, from the volume and density of pass 1, see ParticleRows::set_pressure()
 
-  class PressureStage : public Stage {
+  template <class Space> class PressureStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
     // Boundary particles (groups not_fluid) get zero.  Return the number of owned particles whose coefficient is beyond the
     // bound (of LimitStage; nullptr without)
@@ -131,72 +137,74 @@ namespace SPHDissipation {
 
   // The states of particles: see StateList
 
-  class StateStage : public Stage {
+  template <class Space> class StateStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
-    // Advance the states by the time step of the parameters, from the last forces; not_fluid as above.
-    // noise[k * nlocal + i] = thermal noise of the state at place k
+    // Advance the states by the time step of the parameters, from the last forces.
+    // noise[k * nlocal + i] = thermal noise of the state at place k < end
 
-    void advance(int not_fluid, const std::vector<double> &noise) const;
+    void advance(int not_fluid, const double *noise, int end) const;
 
     // Drop states that the types of owned particles do not have; return the number of particles with such states, of all
     // processors, and the bits of the places of these states
     std::pair<bigint, int> keep() const;
 
-    // Return the energy of the states of owned particles of these groups, not_fluid as above
+    // Return the energy of the states of owned particles of these groups
 
     double energy(int groupbits, int not_fluid) const;
   };
 
   // The flows, after pass 2, see FlowList: added to the heating of LAMMPS, or kept for the next advance of a state
 
-  class FlowStage : public Stage {
+  template <class Space> class FlowStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
-    // Run; add() of another stage adds heat per time to owned and ghost atoms
-    void run(const std::function<void(std::vector<double> &heat)> &add);
+    // Run; add_more() adds heat per time to Space::flow_rate(HEAT_FLOW)
+    void run(const std::function<void()> &add_more);
 
     // Return the heat per time that particles of a group got in run(), on this processor
     double received(int groupbit) const;
 
-    void forget();    // the rates of the last forces
+    void forget() { this->space.forget_flows(); }    // the rates of the last forces
   };
 
   // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The particles keep the rates of volumes and
   // energies constant between two evaluations: so the sums over all particles do not change.
 
-  class DiffusionStage : public Stage {
+  template <class Space> class DiffusionStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
     // Find the rates, and the filled part of each support: the smallest eigenvalue of the tensor, 1 inside of the fluid,
     // about 1/2 at a plane surface, 0 for particles without neighbors or that are not fluid.  integrated = bits of the
-    // groups whose volumes change: volumes of rigid bodies do not change
+    // groups whose volumes change: volumes of rigid bodies do not change.  HostSpace; a device has loops of its own
 
     void evaluate(int not_fluid, int integrated);
+
+    // Set the input of the loops; return it
+
+    DiffusionData set_rows(int not_fluid, int integrated);
 
     // Add the heat of the last rates to the heating
 
     void add_heat(int not_fluid, int integrated) const;
 
-    double memory_usage() const override { return bytes(rows, impedances, sums, flow); }
+    double memory_usage() const { return Space::bytes_of(rows, impedances) + bytes(sums, flow); }
 
    private:
-    std::vector<DiffusionRow> rows;    // of owned, ghost, and spare particles, as the next three
-    std::vector<double> impedances;
-    std::vector<SumBlock> sums, flow;
-
-    void set_rows(int not_fluid, int integrated);
+    typename Space::template Array<DiffusionRow> rows;    // of owned, ghost, and spare particles
+    typename Space::template Array<double> impedances;    // of these
+    std::vector<SumBlock> sums, flow;                     // of these
   };
 
   // Particle shifting, see sph_dissipation_shift_terms.h: every few steps, after the first half of the step, with the pairs
   // and the volumes of the last forces
 
-  class ShiftStage : public Stage {
+  template <class Space> class ShiftStage : public SharedStage<Space> {
    public:
-    using Stage::Stage;
+    using SharedStage<Space>::SharedStage;
 
     std::vector<ShiftMover> movers;    // by the fixes, from their init(), in every run
 
@@ -205,15 +213,12 @@ namespace SPHDissipation {
 
     // Change positions, velocities, extrapolated velocities, and internal energies of owned particles.  keep: as of TimeStep
     void run(double keep);
-    double memory_usage() const override { return bytes(rows, sums, thread_sums); }
+    double memory_usage() const { return Space::bytes_of(rows); }
+
+    template <class K> void set_rows(const ShiftLaw &);
 
    private:
-    std::vector<ShiftRow> rows;    // of owned and ghost particles
-    std::vector<double> sums;      // rows of one of the structs of sums
-    ThreadSums<double> thread_sums;
-
-    // Return the sums of owned particles; for each pair, add(i, j, entry, sum of i, sum of j) adds to both sums
-    template <class Sum, class Add> const Sum *sum_up(const Add &);
+    typename Space::template Array<ShiftRow> rows;    // of owned and ghost particles
   };
 
   // After pass 2: adds the sums of the engine, forces, torques, and heating of owned and ghost atoms, to the arrays of

@@ -68,7 +68,6 @@ namespace SPHDissipation {
   };
 
   class BoundaryStage;
-  class PressureStage;
 
   // Solves M dy/dt = F(y), F(y) = F(0) - Gamma y, for velocities or temperatures y at fixed positions, stable for all rates.
   // From the middle of one step, y-, to the middle of the next one, y+, the integrator makes y+ = y- + dt M^-1 F(y_b).
@@ -179,7 +178,7 @@ namespace SPHDissipation {
   class ViscousStage : public StiffStage {
    public:
     ViscousStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange,
-                 const PressureStage &pressure, BoundaryStage &boundary) :
+                 const PressureStage<HostSpace> &pressure, BoundaryStage &boundary) :
         StiffStage(lmp, engine, exchange, ""),
         pressure(pressure), boundary(boundary), rigid(lmp, engine, exchange, boundary)
     {
@@ -210,7 +209,7 @@ namespace SPHDissipation {
     double scale_sq() const override;
 
    private:
-    const PressureStage &pressure;
+    const PressureStage<HostSpace> &pressure;
     BoundaryStage &boundary;
     RigidStage rigid;
 

@@ -1,0 +1,186 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_PAIR_SUMS_H
+#define LMP_SPH_DISSIPATION_PAIR_SUMS_H
+
+// Sums over the pairs of each particle, on the host and on a device.  add() adds a pair to the sum of particle i alone: a host
+// calls it for both particles of a pair, a device for each particle and its neighbors.  finish() gets the complete sum of an
+// owned particle, on a device while other particles still sum up: so it must not change what add() reads.  No LAMMPS include.
+
+#include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_shift_terms.h"
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // Bound of LimitStage
+
+  struct BoundSum {
+    typedef double Row;
+    static constexpr bool SHAPE = false;
+    double *bound;
+
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+                          double &sum) const
+    {
+      const PairCoeff &coeff = of.pair[of.type[i] * of.par.ntypes_1 + of.type[j]];
+      sum += bound_of_pair(central_weight(of.par.shear, coeff, pair.length), pair.slope, pair.rsq,
+                           of.particle[i].vol, of.weight[i * of.each], of.particle[j].vol,
+                           of.weight[j * of.each]);
+    }
+    SPH_FUNCTION void finish(const ParticleRows &, int i, double sum) const { bound[i] = sum; }
+  };
+
+  // Rates of shear of owned particles, see shear_rate_squared().  On the host, a loop in vectors has this sum
+
+  struct ShearRateSum {
+    typedef double Row;
+    static constexpr bool SHAPE = false;
+    int not_fluid;
+
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+                          double &sum) const
+    {
+      const Particle &a = of.particle[i], &b = of.particle[j];
+      double approach = 0.0;
+      for (int d = 0; d < 3; d++) approach += pair.r[d] * (a.u[d] - b.u[d]);
+      const double metric = (of.par.shear == Shear::MG_FR2) ? 1.0 : pair.rsq;
+      if (pair.rsq > 0.0) sum += b.vol * (pair.slope * approach * (approach / metric));
+    }
+    SPH_FUNCTION void finish(const ParticleRows &of, int i, double sum) const
+    {
+      of.set_shear_rate(i, sum, not_fluid);
+    }
+  };
+
+  // The four sums of a shift, see sph_dissipation_shift_terms.h
+
+  struct ShiftPairs {
+    static constexpr bool SHAPE = false;
+    ShiftLaw law;
+    ShiftRow *row;    // of owned and ghost particles
+
+    // Return a_ij; set r to r' = r_ij at the new places; set v to the velocity of a particle
+    SPH_FUNCTION double share(int i, int j, const PairPlace &pair) const
+    {
+      return shift_share(pair.slope, row[i], row[j]);
+    }
+    SPH_FUNCTION void distance(int i, int j, const PairPlace &pair, double *r) const
+    {
+      for (int d = 0; d < 3; d++) r[d] = pair.r[d] + (row[i].d[d] - row[j].d[d]);
+    }
+    SPH_FUNCTION void velocity(const ParticleRows &of, int i, double *v) const
+    {
+      velocity_in_shift(row[i], of.particle[i].u, v);
+    }
+  };
+
+  struct CrowdingSum : ShiftPairs {
+    typedef ShiftSum Row;
+    static constexpr bool SHAPE = true;
+
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+                          ShiftSum &sum) const
+    {
+      const Particle &a = of.particle[i], &b = of.particle[j];
+      const double u[3] = {a.u[0] - b.u[0], a.u[1] - b.u[1], a.u[2] - b.u[2]};
+      const double push = concentration_push(b.vol, pair.slope, pair.shape, row[i].contact);
+      add_to_shift(law, pair.r, u, b.vol, pair.slope, push, share(i, j, pair), sum);
+    }
+    SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftSum &sum) const
+    {
+      set_shift(law, sum, row[i]);
+    }
+  };
+
+  struct ExchangeSum : ShiftPairs {
+    typedef ShiftExchange Row;
+
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+                          ShiftExchange &sum) const
+    {
+      const double part = share(i, j, pair);
+      if (part == 0.0) return;
+      double v[3], w[3];
+      velocity(of, i, v);
+      velocity(of, j, w);
+      for (int d = 0; d < 3; d++) {
+        sum.moved[d] += part * row[j].q[d];
+        sum.slip[d] += part * (v[d] - w[d]);
+      }
+    }
+    SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftExchange &sum) const
+    {
+      set_displacement(sum, row[i]);
+    }
+  };
+
+  struct ReturnTensorSum : ShiftPairs {
+    typedef ShiftTensor Row;
+
+    SPH_FUNCTION void add(const ParticleRows &, int i, int j, const PairPlace &pair,
+                          ShiftTensor &sum) const
+    {
+      const double part = share(i, j, pair);
+      if (part == 0.0) return;
+      double r[3];
+      distance(i, j, pair, r);
+      add_square(law.dim, part, r, sum.a);
+    }
+    SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftTensor &sum) const
+    {
+      set_return(law.dim, sum, row[i]);
+    }
+  };
+
+  struct ReturnSum : ShiftPairs {
+    typedef ShiftReturn Row;
+    VectorField x, v, vest;    // of owned particles, as the next one
+    double *energy;
+    double dt, keep, mvv2e;    // see finish_shift()
+
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+                          ShiftReturn &sum) const
+    {
+      const double part = share(i, j, pair);
+      if (part == 0.0) return;
+      double r[3], v_i[3], v_j[3], push[3];
+      distance(i, j, pair, r);
+      velocity(of, i, v_i);
+      velocity(of, j, v_j);
+      sum.work += impulse_of_pair(part, row[i], row[j], v_i, v_j, r, push);
+      for (int d = 0; d < 3; d++) sum.impulse[d] += push[d];
+    }
+    SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftReturn &sum) const
+    {
+      if (row[i].vol == 0.0) return;
+      double to[3][3];
+      for (int d = 0; d < 3; d++) {
+        to[0][d] = x.at(i, d);
+        to[1][d] = v.at(i, d);
+        to[2][d] = vest.at(i, d);
+      }
+      finish_shift(row[i], sum, dt, keep, mvv2e, to[0], to[1], to[2], energy[i]);
+      for (int d = 0; d < 3; d++) {
+        x.at(i, d) = to[0][d];
+        v.at(i, d) = to[1][d];
+        vest.at(i, d) = to[2][d];
+      }
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
