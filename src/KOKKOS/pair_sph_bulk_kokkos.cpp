@@ -68,8 +68,6 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
 {
   if (fluid->model->choice.thermal) return "keyword temp";
   if (update->whichflag == 2) return "a minimization";
-  if (fluid->model->has_pair_energy()) return "a tension of fluids";
-  if (fluid->model->has_rheology()) return "a viscosity that is not constant";
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);
     if ((one && !dynamic_cast<BoundaryKokkos<DeviceType> *>(ifix)) ||
@@ -111,8 +109,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
     return;
   }
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  datamask_read = device->read_mask();
-  datamask_modify = device->modified_mask();
+  datamask_read = device->space.read_mask();
+  datamask_modify = device->space.modified_mask();
   no_virial_fdotr_compute = 1;
 
   auto *request = neighbor->find_request(static_cast<Pair *>(this));
@@ -126,7 +124,7 @@ template <class DeviceType>
 int PairSPHBulkKokkos<DeviceType>::pack_forward_comm_kokkos(int n, DAT::tdual_int_1d to,
                                                             DAT::tdual_double_1d &buf, int, int *)
 {
-  const ColumnsKokkos &sent = device->sent;
+  const ColumnsKokkos &sent = device->space.sent;
   pack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n,
                            to.template view<DeviceType>());
   return n * sent.n;
@@ -136,7 +134,7 @@ template <class DeviceType>
 void PairSPHBulkKokkos<DeviceType>::unpack_forward_comm_kokkos(int n, int nfirst,
                                                                DAT::tdual_double_1d &buf)
 {
-  const ColumnsKokkos &sent = device->sent;
+  const ColumnsKokkos &sent = device->space.sent;
   unpack_columns<DeviceType>(sent, {buf.template view<DeviceType>().data(), sent.n}, n,
                              ParticlesFrom{nfirst});
 }

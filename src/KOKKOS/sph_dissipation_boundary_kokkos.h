@@ -128,8 +128,7 @@ namespace SPHDissipation {
         total += surface_heat(heat[w].flux, data.particle[f].vol, r, slope,
                               boundary.surface(boundary.number(w)));
       });
-      if (is_wall) flow[i] = -total;
-      data.desph[i] -= to_wall * total;
+      flow[i] -= to_wall * total;
     }
   };
 
@@ -158,8 +157,8 @@ namespace SPHDissipation {
     // After run(), when ghosts have the values of their owners: set the excess, for the heat in pass 2
     void set_excess(LoopDataKokkos<DeviceType> &);
 
-    // After the conduction: add the heat of surfaces to the heating, as BoundaryStage::add_surface_heat(); set flow of
-    // boundary particles to the heat per time that they get
+    // After the conduction: add the heat of surfaces to the heat per time that particles get, as
+    // BoundaryStage::add_surface_heat()
 
     void add_surface_heat(const LoopDataKokkos<DeviceType> &, double *flow);
 

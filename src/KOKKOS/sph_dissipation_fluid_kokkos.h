@@ -14,13 +14,9 @@
 #ifndef LMP_SPH_DISSIPATION_FLUID_KOKKOS_H
 #define LMP_SPH_DISSIPATION_FLUID_KOKKOS_H
 
-#include "sph_dissipation_columns_kokkos.h"
-#include "sph_dissipation_diffusion_terms.h"
 #include "sph_dissipation_fluid.h"
-#include "sph_dissipation_masks_kokkos.h"
-#include "sph_dissipation_parameters.h"
-#include "sph_dissipation_rows.h"
-#include "sph_dissipation_shift_terms.h"
+#include "sph_dissipation_space_kokkos.h"
+#include "sph_dissipation_stages.h"
 
 #include <vector>
 
@@ -31,16 +27,9 @@ namespace SPHDissipation {
 
   class Threads;
   template <class DeviceType> class BoundaryStageKokkos;
-  template <class DeviceType> struct LoopDataKokkos;
-  template <class DeviceType> struct ShiftDataKokkos;
 
-  // Fields of particles that the forces read and modify; the atom style ignores fields that it does not have
+  // Fields that tasks of the host change
 
-  constexpr uint64_t FLUID_READ = X_MASK | F_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK | ESPH_MASK |
-      VEST_MASK | TORQUE_MASK | OMEGAEST_MASK | STATES_MASK;
-  constexpr uint64_t FLUID_DERIVED = SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK;
-  constexpr uint64_t FLUID_MODIFIED =
-      F_MASK | TORQUE_MASK | DESPH_MASK | STATES_MASK | FLUID_DERIVED;
   constexpr uint64_t FLUID_SET_ON_HOST = RMASS_MASK | STATES_MASK | OFFSET_MASK | FLUID_DERIVED;
 
   // The fluid on the device, with full neighbor lists; or on the host, with the loops of the CPU style, half lists, and the
@@ -55,9 +44,7 @@ namespace SPHDissipation {
 
     void choose(bool device);
     void request_list() override;
-    uint64_t read_mask() const;    // fields that the forces read on the device, and modify
-    uint64_t modified_mask() const;
-    ColumnsKokkos sent;    // to ghosts, by the pair style's packing on the device
+    DeviceSpace<DeviceType> space;
 
     void adopt() override;
     bigint compute(PairTally *) override;
@@ -69,14 +56,13 @@ namespace SPHDissipation {
     // Stages on the device; public, because CUDA requires this of functions with lambdas
 
     void sum_density(StepData &);
-    void sum_bound(StepData &);
     void set_reference_volume(StepData &);
-    void set_pressure(StepData &);
+    void set_viscosities(StepData &);
     void set_boundary(StepData &);
     void sum_forces(StepData &);
+    void sum_tension(StepData &);
     void sum_flows(StepData &);
     void evaluate_diffusion(StepData &);
-    void add_diffusion_heat(StepData &);
 
     // On the device if it was chosen
 
@@ -84,41 +70,31 @@ namespace SPHDissipation {
     void begin_run(double dt, bool continues, const Changes &) override;
     void advance_states() override;
     void shift_particles(double keep) override;
-    template <class K> void run_shift(const ShiftDataKokkos<DeviceType> &);
     void fence() const override { Kokkos::fence(); }
-    void set_particles();
 
    private:
     static constexpr uint64_t STATES = SPH_RHO_MASK | TYPE_MASK | MASK_MASK | STATES_MASK;
     static constexpr uint64_t ENERGY = STATES | RMASS_MASK;
-    static constexpr uint64_t HEAT = ENERGY | ESPH_MASK | DESPH_MASK | DRHO_MASK;
+    static constexpr uint64_t HEAT = ENERGY | ESPH_MASK | DESPH_MASK | DRHO_MASK | OFFSET_MASK;
 
     bool on_device;
-    bool copied;         // coefficients on the device are those of the model
-    bool rates_known;    // those of the flows, from this run
     std::unique_ptr<Threads> threads;
     std::unique_ptr<NeighList> host_list;    // half; for what runs on the host
     std::vector<int> host_neighbors;
     int nlocal_device, nghost_device;    // # of atoms of the last computation on the device
 
-    // Arrays on the device to which data refers
+    // Stages on the device
 
-    template <class T> using Array = Kokkos::View<T *, DeviceType>;
-    std::unique_ptr<LoopDataKokkos<DeviceType>> data;
-    Array<TypeParameters> types;
-    Array<PairCoeff> pair_coeff;
-    Array<Particle> particle;
-    Array<DensitySum> density_sum;
-    Array<Spin> spin;
-    Array<double> zeta_term, state_pressure, weight;
-    Array<FlowRow> flow[Flows::NUMBER];
-    Array<double>
-        flow_rate[Flows::NUMBER];    // of states, and of heat if boundaries give it, see FlowStage
-    Array<double> bound_of;          // of the limit, see LimitStage
-    Array<ShiftRow> shift_row;       // see ShiftStage
-    Array<ShiftReturn> shift_return;
-    Array<DiffusionRow> diffusion_row;    // see DiffusionStage
-    Array<double> impedance;
+    typedef DeviceSpace<DeviceType> Space;
+    DensityStage<Space> density_device;
+    LimitStage<Space> limit_device;
+    ViscosityStage<Space> viscosity_device;
+    PressureStage<Space> pressure_device;
+    StateStage<Space> state_device;
+    FlowStage<Space> flows_device;
+    DiffusionStage<Space> diffusion_device;
+    ShiftStage<Space> shift_device;
+    Kokkos::View<double *, DeviceType> tension;    // energies of owned particles in the last forces
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
     bool has_own_forces() const override;
@@ -126,14 +102,8 @@ namespace SPHDissipation {
     void on_host(const std::function<void()> &) override;
     void for_report(const std::function<void()> &) override;
     void build_host_list();
-    void grow();
-    void set_states();
-    void copy_coeffs();
-    void send_to_ghosts(const std::vector<Field> &);
-    template <template <class, class> class Loop, class... More>
-    void sum_pairs(const char *name, const More &...);
-    bool has_rate(int place) const;    // of a flow
-    template <class Loop> void run_loop(const char *name, int n, const Loop &, bool virial);
+    double tension_energy(double *, int groupbit) const override;
+    const double *bound_device() const;    // see Fluid::bound()
     template <class K, int DIM> void run_diffusion();
   };
 

@@ -59,8 +59,7 @@ namespace SPHDissipation {
     Spin *spin;                                           // micropolar, else nullptr
     const Excess *excess;                                 // nullptr without boundaries
     Kokkos::View<double *[NCHANNEL], DeviceType> heat;    // of owned particles
-    const PairCoeff *coeff;    // coeff[type[i] * par.ntypes_1 + type[j * typed]]
-    int typed;                 // 0: the coefficients of all pairs are the same
+    int typed;    // 0: the coefficients of all pairs are the same, and pair[] is read for types 1 alone
 
     int not_fluid;                          // bits of the groups whose particles have no drag
     typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
@@ -149,7 +148,7 @@ namespace SPHDissipation {
       const double support_inv = 1.0 / data.par.support;
       const double zeta_term_i = data.zeta_term[i];
       const double weight_i = data.weight[i * data.each];
-      const PairCoeff *const coeff_i = &data.coeff[data.type[i] * data.par.ntypes_1];
+      const PairCoeff *const coeff_i = &data.pair[data.type[i] * data.par.ntypes_1];
       double total_f[3] = {0.0, 0.0, 0.0}, total_t[3] = {0.0, 0.0, 0.0}, divergence = 0.0;
       double heat[NCHANNEL] = {};
       const bool crosses = data.excess && data.excess[i].crosses != 0.0;
@@ -174,6 +173,10 @@ namespace SPHDissipation {
         pair.central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight[j * data.each];
         if constexpr (Form::CENTRAL)
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(rsq) + TINY);
+        if constexpr (Form::BY_RATE) {
+          pair.mu[0] = data.viscosity[i];
+          pair.mu[1] = data.viscosity[j];
+        }
         Form::add_central(pair);
         if constexpr (VOLUME) {
           pair.central += volume_term(zeta_term_i, data.zeta_term[j], pair.vv);

@@ -14,49 +14,101 @@
 #ifndef LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 #define LMP_SPH_DISSIPATION_SUMS_KOKKOS_H
 
-// Other sums over the pairs of each particle, as classes LimitStage, FlowStage, DiffusionStage and ShiftStage of the CPU
-// styles
+// Other sums over the pairs of each particle
 
+#include "atom.h"
+#include "pair.h"
+#include "sph_dissipation_kernel.h"
 #include "sph_dissipation_loops_kokkos.h"
-#include "sph_dissipation_shift_terms.h"
+#include "sph_dissipation_pair_sums.h"
+#include "sph_dissipation_space_kokkos.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  // A sum of sph_dissipation_pair_sums.h
+
+  template <class DeviceType, class K, class Sum> struct PairSumKokkos {
+    LoopDataKokkos<DeviceType> data;
+    Sum sum;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    {
+      const int i = data.ilist(ii);
+      auto total = typename Sum::Row();
+      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
+        const double length = Kokkos::sqrt(rsq), q = length / data.par.support;
+        const PairPlace pair = {{r[0], r[1], r[2]},
+                                rsq,
+                                length,
+                                data.par.slope_norm * K::slope(q),
+                                Sum::SHAPE ? K::shape(q) : 0.0};
+        sum.add(data, i, j, pair, total);
+      });
+      sum.finish(data, i, total);
+    }
+  };
+
+  template <class DeviceType>
+  template <class Sum>
+  void DeviceSpace<DeviceType>::sum_pairs(const char *name, const Sum &sum)
+  {
+    with_kernel(data->par.kernel, [&](auto kernel) {
+      for_each(name, pair->list->inum,
+               PairSumKokkos<DeviceType, decltype(kernel), Sum>{*data, sum});
+    });
+  }
+
+  template <class DeviceType>
+  template <class Loop>
+  void DeviceSpace<DeviceType>::run_loop(const char *name, int n, const Loop &loop, bool tally)
+  {
+    const auto range = Kokkos::RangePolicy<DeviceType>(0, n);
+    VirialLoopKokkos<Loop> with_virial = {loop};
+    if (!tally) return Kokkos::parallel_for(name, range, with_virial);
+    auto &vatom = with_virial.loop.data.vatom;
+    if (pair->vflag_atom) vatom = std::decay_t<decltype(vatom)>("sph:vatom", atom->nlocal);
+    EV_FLOAT ev;
+    Kokkos::parallel_reduce(name, range, with_virial, ev);
+    if (pair->vflag_global)
+      for (int k = 0; k < 6; k++) pair->virial[k] += ev.v[k];
+    if (!pair->vflag_atom) return;
+    const auto from = Kokkos::create_mirror_view_and_copy(LMPHostType(), vatom);
+    for (int i = 0; i < atom->nlocal; i++)
+      for (int k = 0; k < 6; k++) pair->vatom[i][k] += from(i, k);
+  }
 
   // A flow, as flow_loop() of the CPU styles
 
   template <class DeviceType, class K> struct FlowLoopKokkos {
     LoopDataKokkos<DeviceType> data;
-    int place;         // of the flow
-    double *rate;      // amount that each particle gets per time; nullptr: not needed
-    bool of_energy;    // the amount is added to the rate of the internal energy
+    int place;       // of the flow
+    double *rate;    // amount that each particle gets per time
 
     KOKKOS_INLINE_FUNCTION void operator()(int ii) const
     {
       const int i = data.ilist(ii);
       const FlowRow *const row = data.flow[place];
       const FlowRow own = row[i];
-      if (rate) rate[i] = 0.0;
-      if (own.vol == 0.0) return;
       double sum = 0.0;
-      for_neighbors(data, i, [&](int j, const double *, double rsq) {
-        const FlowRow &other = row[j];
-        const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
-        sum += flow_of_pair(mean_coefficient(own.coefficient, other.coefficient),
-                            own.vol * other.vol * slope, own.value, other.value);
-      });
-      if (of_energy) data.desph[i] += sum;
-      if (rate) rate[i] = sum;
+      if (own.vol != 0.0)
+        for_neighbors(data, i, [&](int j, const double *, double rsq) {
+          const FlowRow &other = row[j];
+          const double slope = data.par.slope_norm * K::slope(Kokkos::sqrt(rsq) / data.par.support);
+          sum += flow_of_pair(mean_coefficient(own.coefficient, other.coefficient),
+                              own.vol * other.vol * slope, own.value, other.value);
+        });
+      rate[i] = sum;
     }
   };
 
   // The diffusion of volume: the arrays of DiffusionStage, on the device
 
   struct DiffusionRowsKokkos {
-    DiffusionRow *row;      // of owned and ghost particles, as the next one
-    double *impedance;      // not read if it is the same for all
-    double factor;          // of a_ij, which the loops leave out
-    double *rate, *heat;    // of owned particles, see Fields, as the next one
+    DiffusionRow *row;          // of owned and ghost particles, as the next one
+    const double *impedance;    // not read if it is the same for all
+    double factor;              // of a_ij, which the loops leave out
+    double *rate, *heat;        // of owned particles, see Fields, as the next one
     double *support;
   };
 
@@ -139,124 +191,43 @@ namespace SPHDissipation {
     }
   };
 
-  template <class DeviceType, class K> struct BoundLoopKokkos {
+  // Forces of the energies of pairs, after pass 2, and the energies, half of each pair, see PairEnergyStage
+
+  template <class DeviceType> struct TensionLoopKokkos {
     LoopDataKokkos<DeviceType> data;
-    double *bound;
+    const double *unlike, *cohesion;    // a and A by types, as in Parameters; nullptr: none
+    PairEnergyKernel unlike_kernel;
+    CohesionKernel cohesion_kernel;
+    double *energy;    // of owned particles
 
-    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
+    template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int ii, double *virial) const
     {
-      const int i = data.ilist(ii);
-      const double vol_i = data.particle[i].vol, weight_i = data.weight[i * data.each];
-      const PairCoeff *const coeff = &data.coeff[data.type[i] * data.par.ntypes_1];
-      double sum = 0.0;
-      for_neighbors(data, i, [&](int j, const double *, double rsq) {
-        const double r = Kokkos::sqrt(rsq);
-        const double slope = data.par.slope_norm * K::slope(r / data.par.support);
-        const double weight = central_weight(data.par.shear, coeff[data.type[j * data.typed]], r);
-        sum += bound_of_pair(weight, slope, rsq, vol_i, weight_i, data.particle[j].vol,
-                             data.weight[j * data.each])
-                   .i;
-      });
-      bound[i] = sum;
-    }
-  };
-
-  // A shift of the particles, as ShiftStage::run(): four loops over the pairs of the last forces
-
-  template <class DeviceType> struct ShiftDataKokkos {
-    LoopDataKokkos<DeviceType> data;
-    ShiftLaw law;
-    ShiftRow *row;    // of owned and ghost particles
-
-    KOKKOS_INLINE_FUNCTION void velocity(int i, double *v) const
-    {
-      velocity_in_shift(row[i], data.particle[i].u, v);
-    }
-
-    // Call function(j, a_ij, r_ij at the new places) for the neighbors with which particle i shifts
-
-    template <class K, class Function>
-    KOKKOS_INLINE_FUNCTION void for_partners(int i, const Function &function) const
-    {
-      if (row[i].vol == 0.0) return;
+      const int i = data.ilist(ii), dim = data.par.dim, first = data.type[i] * data.par.ntypes_1;
+      const double w_i = data.reference_volume(i);
+      double total[3] = {0.0, 0.0, 0.0}, sum = 0.0;
       for_neighbors(data, i, [&](int j, const double *r, double rsq) {
-        const double share = shift_share(pair_slope<K>(data, rsq), row[i], row[j]);
-        if (share == 0.0) return;
-        double moved[3];
-        for (int d = 0; d < 3; d++) moved[d] = r[d] + (row[i].d[d] - row[j].d[d]);
-        function(j, share, moved);
-      });
-    }
-  };
-
-  template <class DeviceType, class K> struct ShiftLoopKokkos : ShiftDataKokkos<DeviceType> {
-    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-    {
-      const auto &data = this->data;
-      const auto &law = this->law;
-      const int i = data.ilist(ii);
-      ShiftRow &own = this->row[i];
-      if (own.vol == 0.0) return;
-      ShiftSum sum;
-      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
-        const Particle &other = data.particle[j];
-        const double slope = pair_slope<K>(data, rsq);
-        const double shape = K::shape(Kokkos::sqrt(rsq) / law.support);
-        double u[3];
-        for (int d = 0; d < 3; d++) u[d] = data.particle[i].u[d] - other.u[d];
-        add_to_shift(law, r, u, other.vol, slope,
-                     concentration_push(other.vol, slope, shape, own.contact),
-                     shift_share(slope, own, this->row[j]), sum);
-      });
-      set_shift(law, sum, own);
-    }
-  };
-
-  template <class DeviceType, class K> struct ShiftExchangeKokkos : ShiftDataKokkos<DeviceType> {
-    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-    {
-      const int i = this->data.ilist(ii);
-      ShiftExchange sum;
-      double own[3], other[3];
-      this->velocity(i, own);
-      this->template for_partners<K>(i, [&](int j, double share, const double *) {
-        this->velocity(j, other);
-        for (int d = 0; d < 3; d++) {
-          sum.moved[d] += share * this->row[j].q[d];
-          sum.slip[d] += share * (own[d] - other[d]);
+        const int types = first + data.type[j];
+        const double ww = w_i * data.reference_volume(j);
+        double central = 0.0;
+        if (unlike && unlike[types] != 0.0) {
+          const double a = unlike[types] * ww *
+              unlike_kernel.of_rows(spacing_of(dim, w_i),
+                                    spacing_of(dim, data.reference_volume(j)));
+          central += a * unlike_kernel.slope(rsq);
+          sum += 0.5 * a * unlike_kernel.weight(rsq);
         }
+        if (cohesion && cohesion[types] != 0.0) {
+          const double distance = Kokkos::sqrt(rsq), a = cohesion[types] * ww;
+          central += a * cohesion_kernel.slope(distance);
+          sum += 0.5 * a * cohesion_kernel.weight(distance);
+        }
+        const double f[3] = {central * r[0], central * r[1], central * r[2]};
+        for (int d = 0; d < 3; d++) total[d] += f[d];
+        if constexpr (VIRIAL) add_virial(f, r, virial);
       });
-      set_displacement(sum, this->row[i]);
-    }
-  };
-
-  template <class DeviceType, class K> struct ShiftTensorKokkos : ShiftDataKokkos<DeviceType> {
-    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-    {
-      const int i = this->data.ilist(ii);
-      ShiftTensor sum;
-      this->template for_partners<K>(i, [&](int, double share, const double *r) {
-        add_square(this->law.dim, share, r, sum.a);
-      });
-      set_return(this->law.dim, sum, this->row[i]);
-    }
-  };
-
-  template <class DeviceType, class K> struct ShiftReturnKokkos : ShiftDataKokkos<DeviceType> {
-    ShiftReturn *sum;    // of owned particles
-
-    KOKKOS_INLINE_FUNCTION void operator()(int ii) const
-    {
-      const int i = this->data.ilist(ii);
-      ShiftReturn total;
-      double own[3], other[3], push[3];
-      this->velocity(i, own);
-      this->template for_partners<K>(i, [&](int j, double share, const double *r) {
-        this->velocity(j, other);
-        total.work += impulse_of_pair(share, this->row[i], this->row[j], own, other, r, push);
-        for (int d = 0; d < 3; d++) total.impulse[d] += push[d];
-      });
-      sum[i] = total;
+      for (int d = 0; d < 3; d++) data.f(i, d) += total[d];
+      energy[i] = sum;
+      return i;
     }
   };
 

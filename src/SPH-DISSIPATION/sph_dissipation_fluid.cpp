@@ -712,7 +712,7 @@ double Fluid::energy(double *each_atom) const
   double energy = pressure->elastic_energy(each_atom, not_fluid());
   if (!boundary->empty()) energy += wall_energy(each_atom);
   if (boundary->has_contact()) energy += contact->energy(each_atom);
-  if (pair_energies->active()) energy += pair_energies->energy(each_atom, ALL);
+  if (pair_energies->active()) energy += tension_energy(each_atom, ALL);
   return energy;
 }
 
@@ -723,7 +723,12 @@ bool Fluid::has_pair_energy() const
 
 double Fluid::pair_energy(int groupbit) const
 {
-  return pair_energies->energy(nullptr, groupbit);
+  return tension_energy(nullptr, groupbit);
+}
+
+double Fluid::tension_energy(double *each_atom, int groupbit) const
+{
+  return pair_energies->energy(each_atom, groupbit);
 }
 
 double Fluid::wall_energy(double *each_atom) const

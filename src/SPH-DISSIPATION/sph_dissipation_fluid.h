@@ -237,7 +237,8 @@ namespace SPHDissipation {
     virtual void advance_states();
     bool diffusion_is_due();                                // once in each step
     virtual void fence() const {}                           // wait for the device
-    virtual double wall_energy(double *each_atom) const;    // see energy()
+    virtual double wall_energy(double *each_atom) const;    // see energy(), pair_energy()
+    virtual double tension_energy(double *each_atom, int groupbit) const;
 
     virtual bool has_own_forces() const;    // on this processor
     void report();

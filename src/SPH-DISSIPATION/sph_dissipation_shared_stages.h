@@ -196,7 +196,6 @@ namespace SPHDissipation {
           row[i] = DiffusionRow();
           impedance[i] = 1.0;
         });
-    return {row, impedance};
   }
 
   template <class Space> void DiffusionStage<Space>::add_heat(int not_fluid, int integrated) const

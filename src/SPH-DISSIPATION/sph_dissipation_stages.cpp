@@ -234,7 +234,8 @@ template <class Space> void DiffusionStage<Space>::evaluate(int not_fluid, int i
   const int vol = place_of_volume(dim), p = vol + 1;
   constexpr std::size_t WIDTH = sizeof(DiffusionRow) / sizeof(double);
   const Fields &fields = *Fields::of(atom);
-  const DiffusionData data = set_rows(not_fluid, integrated);
+  set_rows(not_fluid, integrated);
+  const DiffusionData data = {rows.data(), impedances.data()};
   engine.accumulate_diffusion(DiffusionPart::SUMS, data, width, sums);
   double *const sum = sums[0].a;
   exchange.reverse({{sum, static_cast<std::size_t>(width), nsum}});

@@ -183,9 +183,7 @@ namespace SPHDissipation {
 
     void evaluate(int not_fluid, int integrated);
 
-    // Set the input of the loops; return it
-
-    DiffusionData set_rows(int not_fluid, int integrated);
+    void set_rows(int not_fluid, int integrated);    // the input of the loops
 
     // Add the heat of the last rates to the heating
 
@@ -193,10 +191,13 @@ namespace SPHDissipation {
 
     double memory_usage() const { return Space::bytes_of(rows, impedances) + bytes(sums, flow); }
 
+    // of owned, ghost, and spare particles, as the next two
+
+    typename Space::template Array<DiffusionRow> rows;
+    typename Space::template Array<double> impedances;
+
    private:
-    typename Space::template Array<DiffusionRow> rows;    // of owned, ghost, and spare particles
-    typename Space::template Array<double> impedances;    // of these
-    std::vector<SumBlock> sums, flow;                     // of these
+    std::vector<SumBlock> sums, flow;
   };
 
   // Particle shifting, see sph_dissipation_shift_terms.h: every few steps, after the first half of the step, with the pairs
