@@ -66,10 +66,14 @@ template <class DeviceType> bool PairSPHBulkKokkos<DeviceType>::runs_on_device()
 
 template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_because() const
 {
-  if (fluid->model->choice.thermal) return "keyword temp";
+  const auto &choice = fluid->model->choice;
+  if (choice.thermal &&
+      (choice.own_temperatures || choice.limit != Limit::NO || fluid->model->has_noise_of_states()))
+    return "keyword temp";
   if (update->whichflag == 2) return "a minimization";
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);
+    if (one && choice.thermal) return "keyword temp";
     if ((one && !dynamic_cast<BoundaryKokkos<DeviceType> *>(ifix)) ||
         dynamic_cast<OpenZone *>(ifix))
       return fmt::format("fix {}", ifix->style);

@@ -28,6 +28,8 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_model.h"
+#include "sph_dissipation_noise.h"
+#include "sph_dissipation_noise_kokkos.h"
 #include "sph_dissipation_shared_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_threads.h"
@@ -89,11 +91,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::request_list()
   if (!on_device) return Fluid::request_list();
   own_list = false;
   neighbor->add_request(pair);
-}
-
-template <class DeviceType> uint64_t FluidKokkos<DeviceType>::modified_mask() const
-{
-  return model->choice.continuity ? FLUID_MODIFIED | CONTINUITY_MASK : FLUID_MODIFIED;
 }
 
 /* ----------------------------------------------------------------------
@@ -282,7 +279,7 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
                      (checks_speed() ? V_MASK | MASK_MASK : EMPTY_MASK) |
                      (checks_expansion() ? SPH_RHO_MASK | MASK_MASK : EMPTY_MASK));
   const bigint nbeyond = Fluid::compute(tally);
-  atomKK->modified(pair->execution_space, modified_mask());
+  atomKK->modified(pair->execution_space, space.modified_mask());
 
   if (pair->eflag_either) atomKK->sync(Host, ENERGY);
   nlocal_device = atom->nlocal;
@@ -315,6 +312,11 @@ template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
          step.nbeyond = pressure_device.run(bound_device(), boundary->bits());
        }},
       {"walls", call(&Own::set_boundary)},
+      {"numbers",
+       [this](StepData &) {
+         noise->begin_step(boundary->bits());
+       }},
+      {"noise", call(&Own::set_noise)},
       {"pairs", call(&Own::sum_forces)},
       {"tension", call(&Own::sum_tension)},
       {"flows", call(&Own::sum_flows)},
@@ -417,6 +419,57 @@ template <class DeviceType> void FluidKokkos<DeviceType>::shift_particles(double
   atomKK->modified(where, CHANGED);
 }
 
+/* ----------------------------------------------------------------------
+   Add the random pressure; set the noise of pass 2.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::set_noise(StepData &step)
+{
+  noise_factor = noise->prepare(step.not_fluid);
+  const bool any = noise->set_coeffs(noise_factor);
+  const NoiseData &numbers = noise->numbers_of_pairs();
+  const auto &coeff = noise->coefficients();
+  if (noise_coeff.extent(0) != coeff.size())
+    renew(noise_coeff, "sph:noise_coeff", static_cast<int>(coeff.size()));
+  Kokkos::deep_copy(noise_coeff,
+                    Kokkos::View<const NoiseCoeff *, LMPHostType, Kokkos::MemoryUnmanaged>(
+                        coeff.data(), coeff.size()));
+  if (any) step.noise.pairs = {noise->form_of_pairs(), &numbers};
+  space.for_each("sph:random_pressure", atom->nlocal + atom->nghost,
+                 on_device::RandomPressureKokkos{
+                     space.rows(), on_device::NoiseStep(numbers),
+                     on_device::NoiseStep::keys_of(numbers, NoiseChannel::PRESSURE), noise_factor,
+                     atomKK->k_tag.template view<DeviceType>().data()});
+}
+
+/* ----------------------------------------------------------------------
+   Add random forces and torques of the pairs, and of the drags of single particles.
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class K, class Form>
+void FluidKokkos<DeviceType>::run_noise(const StepData &step)
+{
+  const NoiseData &numbers = noise->numbers_of_pairs();
+  const tagint *const tag = atomKK->k_tag.template view<DeviceType>().data();
+  const on_device::NoiseStep now(numbers);
+  const int n = pair->list->inum;
+  const auto run = [&](auto across) {
+    space.run_loop("sph:noise", n,
+                   on_device::NoiseLoopKokkos<DeviceType, K, decltype(across)::value, Form::SPINS,
+                                              Form::BY_SQUARE, Form::BY_DISTANCE>{
+                       *space.data, now, noise_coeff.data(), tag},
+                   step.tally);
+  };
+  if constexpr (Form::VECTOR && !Form::BY_RATE) {
+    if (model->constants().dim == 3)
+      run(std::integral_constant<int, 3>());
+    else
+      run(std::integral_constant<int, 2>());
+  } else if constexpr (Form::CENTRAL && !Form::BY_RATE)
+    run(std::integral_constant<int, 0>());
+}
+
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &step)
@@ -433,8 +486,17 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &s
       else
         space.run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*space.data},
                        step.tally);
+      if (step.noise.pairs.data) run_noise<K, Form>(step);
     });
   });
+  if (model->choice.thermal && space.data->par.drag) {
+    const NoiseData &numbers = noise->numbers_of_pairs();
+    space.for_each("sph:random_drag", atom->nlocal,
+                   on_device::RandomDragKokkos<DeviceType>{
+                       *space.data, on_device::NoiseStep(numbers),
+                       on_device::NoiseStep::keys_of(numbers, NoiseChannel::DRAG), noise_factor,
+                       atomKK->k_tag.template view<DeviceType>().data()});
+  }
   if (!boundary->empty() && space.data->par.continuity) {
     const auto &walls = boundary_device->particles();
     space.run_loop("sph:repulsion", walls.size(), RepulsionKokkos<DeviceType>{*space.data, walls},
@@ -462,7 +524,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_tension(StepData &
   const auto first = [](const auto &array) {
     return array.size() ? array.data() : nullptr;
   };
-  double *const energy = SPHDissipation::reach(tension, "sph:tension", atom->nmax);
+  double *const energy = reach(tension, "sph:tension", atom->nmax);
   space.run_loop("sph:tension", pair->list->inum,
                  TensionLoopKokkos<DeviceType>{*space.data, first(space.pair_energy),
                                                first(space.cohesion),

@@ -15,6 +15,7 @@
 #define LMP_SPH_DISSIPATION_FLUID_KOKKOS_H
 
 #include "sph_dissipation_fluid.h"
+#include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_space_kokkos.h"
 #include "sph_dissipation_stages.h"
 
@@ -59,6 +60,7 @@ namespace SPHDissipation {
     void set_reference_volume(StepData &);
     void set_viscosities(StepData &);
     void set_boundary(StepData &);
+    void set_noise(StepData &);
     void sum_forces(StepData &);
     void sum_tension(StepData &);
     void sum_flows(StepData &);
@@ -94,6 +96,8 @@ namespace SPHDissipation {
     FlowStage<Space> flows_device;
     DiffusionStage<Space> diffusion_device;
     ShiftStage<Space> shift_device;
+    Kokkos::View<NoiseCoeff *, DeviceType> noise_coeff;
+    double noise_factor = 0.0;                     // 2 kT/dt
     Kokkos::View<double *, DeviceType> tension;    // energies of owned particles in the last forces
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
 
@@ -105,6 +109,7 @@ namespace SPHDissipation {
     double tension_energy(double *, int groupbit) const override;
     const double *bound_device() const;    // see Fluid::bound()
     template <class K, int DIM> void run_diffusion();
+    template <class K, class Form> void run_noise(const StepData &);
   };
 
 }    // namespace SPHDissipation

@@ -44,7 +44,8 @@ template <class DeviceType> DeviceSpace<DeviceType>::~DeviceSpace() = default;
 template <class DeviceType> uint64_t DeviceSpace<DeviceType>::read_mask() const
 {
   const Constants &par = engine.constants();
-  return (par.continuity || par.by_rate) ? FLUID_READ | CONTINUITY_MASK : FLUID_READ;
+  return FLUID_READ | (par.thermal ? TAG_MASK : EMPTY_MASK) |
+      ((par.continuity || par.by_rate) ? CONTINUITY_MASK : EMPTY_MASK);
 }
 
 template <class DeviceType> uint64_t DeviceSpace<DeviceType>::modified_mask() const

@@ -107,10 +107,11 @@ namespace SPHDissipation {
     {
       return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
     }
-    bool has_temperatures() const;     // any type has a heat capacity
-    bool heat_acts(int type) const;    // on pressure, viscosity, or states, or it is conducted
-    bool has_rheology() const;         // mu of any type is not constant
-    bool has_pair_energy() const;      // any types have an energy of their pairs
+    bool has_temperatures() const;       // any type has a heat capacity
+    bool heat_acts(int type) const;      // on pressure, viscosity, or states, or it is conducted
+    bool has_rheology() const;           // mu of any type is not constant
+    bool has_pair_energy() const;        // any types have an energy of their pairs
+    bool has_noise_of_states() const;    // with temp, states of any type have noise
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
     // Return a keyword of this type with any of these requirements, see enum Requirement, or nullptr

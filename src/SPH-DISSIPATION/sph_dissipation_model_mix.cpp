@@ -398,6 +398,20 @@ bool FluidModel::varies_no_flow(const char *name) const
   return found;
 }
 
+/* ---------------------------------------------------------------------- */
+
+bool FluidModel::has_noise_of_states() const
+{
+  for (int i = 1; coeffs && i <= atom->ntypes; i++) {
+    if (coeffs[i].other) continue;
+    const States::Numbers own =
+        States::numbers(TypeCoeffs(coeffs[i].keywords), coeffs[i].eos.rho0, heat_capacity(i), 1.0);
+    for (int slot = 0; slot < States::MOST; slot++)
+      if (States::noise(own, slot) != 0.0) return true;
+  }
+  return false;
+}
+
 /* ----------------------------------------------------------------------
    Return true if pair_coeff gives any type, or any two types, the coefficient of a pair energy.
 ------------------------------------------------------------------------- */

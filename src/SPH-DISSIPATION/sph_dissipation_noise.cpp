@@ -35,7 +35,7 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
+double NoiseStage::prepare(int not_fluid)
 {
   if (neighbor->ago == 0) check_box();
   const bool energy = engine.parameters().own_temperatures;
@@ -45,17 +45,22 @@ StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
                                                             : NoiseKind::ENERGY};
   if (engine.parameters().directed_noise()) form.kind = NoiseKind::DIRECTED;
 
-  // a force is an impulse over the time step
-
-  const double factor =
-      2.0 * force->boltz * (energy ? 1.0 : engine.parameters().temperature) / update->dt;
   data.seed = static_cast<std::uint64_t>(engine.parameters().seed);
   data.step = static_cast<std::uint64_t>(update->ntimestep + clock.offset);
 
   data.of_pairs = NoiseChannel::PAIR;
+  data.heat = 2.0 * force->boltz / update->dt;
+  return energy ? data.heat : data.heat * engine.parameters().temperature;
+}
+
+/* ---------------------------------------------------------------------- */
+
+StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
+{
+  const double factor = prepare(not_fluid);
+  const bool energy = engine.parameters().own_temperatures;
   set_tags();
   if (energy) set_temperatures(continued, not_fluid);
-  data.heat = 2.0 * force->boltz / update->dt;
   add_pressure(factor, not_fluid);
   StepNoise noise = {};
   if (engine.parameters().drag) noise.drag = draw_drag(factor, not_fluid);

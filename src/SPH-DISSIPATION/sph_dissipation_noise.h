@@ -55,6 +55,16 @@ namespace SPHDissipation {
 
     StepNoise run(const double *bound, int not_fluid, bool continued);
 
+    // Parts of run() for a device.  prepare(): set the form, the keys, and the step of the random numbers; return
+    // 2 kT/dt, without T with temp energy.  set_coeffs(): set the factors by pair of types from this number; return false if
+    // there is no friction between pairs
+
+    double prepare(int not_fluid);
+    bool set_coeffs(double factor);
+    const NoiseForm &form_of_pairs() const { return form; }
+    const NoiseData &numbers_of_pairs() const { return data; }
+    const std::vector<NoiseCoeff> &coefficients() const { return coeff; }
+
     // With temp energy and unequal masses, after pass 2 and ForceStage::collect(): add to the heating the share of each pair
     // in the work of pressures and friction at the mean velocities of the kick; subtract the heat that each particle pays
     // for its own kick, see the theory page
@@ -87,7 +97,6 @@ namespace SPHDissipation {
     void set_temperatures(bool continued, int not_fluid);
     void find_cold_arrivals(int not_fluid);
     void warn_of_cold(bigint number) const;
-    bool set_coeffs(double factor);
     bool is_negative(int i) const;
     void add_pressure(double factor, int not_fluid);
     const double *draw_drag(double factor, int not_fluid);

@@ -14,100 +14,10 @@
 // Thermal noise in the loops over the pairs of pass 1: the random forces of pass 2, and the sums that they need before;
 // sph_dissipation_loops.h includes this file inside its namespace.
 
-#include "sph_dissipation_random.h"
+#include "sph_dissipation_noise_terms.h"
 
-// Numbers of a pair:
-//   forms along e only: 0 = along e, 1 = back
-//   1d, 2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
-//   3d: 0 to 2 = vector
-//   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
-// DIRECTED: the particle with the lower ID has "along e", the other one has "back".  A random flow of heat (never DIRECTED)
-// has the number "back", or number 3 after three-dimensional vectors.  Vectors and the flow belong to the particle with the
-// lower ID, and are opposite for the other particle.  Numbers along and across e need no sign, since e_ji = -e_ij.
+// Numbers of NoiseCoeff that a loop loads
 
-template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct PairNumbers {
-  static constexpr bool MANY = (ACROSS == 3 && (SPIN || DIRECTED));
-  static constexpr int NONE = -1;
-  static constexpr int ALONG = MANY ? 3 : (ACROSS == 3) ? NONE : 0;
-  static constexpr int BACK = MANY ? 7 : (ACROSS == 3) ? NONE : (ACROSS == 2) ? 3 : 1;
-  static constexpr int FLOW = (BACK == NONE) ? 3 : BACK;
-  static constexpr int N = MANY ? 8 : 4;
-  Vec z[N];
-
-  static constexpr bool is_used(int k)
-  {
-    if (k == FLOW && CONDUCTS) return true;
-    if (k == BACK) return DIRECTED;
-    if (k == ALONG) return DIRECTED || ACROSS != 3;
-    return k < ACROSS || (SPIN && is_of_vector(k));
-  }
-  static constexpr bool is_of_vector(int k)
-  {
-    if (k == FLOW && CONDUCTS) return true;
-    return (ACROSS == 3) ? k != ALONG && k != BACK : ACROSS == 2 && k == 2;
-  }
-
-  // sign: 1 where i has the lower ID, else -1
-  SPH_INLINE PairNumbers(const Words *random, Vec sign)
-  {
-    for (int k = 0; k < N; k++) {
-      const Vec factor = is_of_vector(k) ? sign : all(1.0);
-      if constexpr (MANY)
-        z[k] = uniform_of_half((k < 4) ? random[k] : shifted<16>(random[k - 4]), factor);
-      else
-        z[k] = uniform(random[k], factor);
-    }
-  }
-};
-
-// Keys of the generator, and the part of the counter that is the same for all pairs
-
-struct NoiseStep {
-  PhiloxKeys pair;
-  std::uint64_t low, high;
-
-  NoiseStep(const NoiseData &data) :
-      pair(keys_of(data, data.of_pairs)), low(data.step & 0xffffffff), high(data.step >> 32)
-  {
-  }
-  static PhiloxKeys keys_of(const NoiseData &data, NoiseChannel channel)
-  {
-    return {data.seed, static_cast<std::uint64_t>(channel)};
-  }
-};
-
-// Set the counter of a pair: both IDs, and the step.  IDs of more than 32 bits count with their lower 46 bits: the upper 14
-// of these join the upper bits of the step, which needs 4 of them.
-
-SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Vec tag_j)
-{
-  word[0] = words(smaller(all(tag_i), tag_j));
-  word[1] = words(larger(all(tag_i), tag_j));
-  word[2] = all_words(step.low);
-  word[3] = all_words(step.high);
-  if constexpr (sizeof(tagint) > 4)
-    word[3] = xor3(word[3], product(shifted<32>(word[0]), all_words(1 << 4)),
-                   product(shifted<32>(word[1]), all_words(1 << 18)));
-}
-
-// Return 1 where i has the lower ID, else -1
-
-SPH_INLINE Vec sign_of(double tag_i, Vec tag_j)
-{
-  return if_positive(tag_j - all(tag_i), all(2.0)) - all(1.0);
-}
-
-// Places of the numbers in NoiseCoeff
-
-enum {
-  CENTRAL,
-  TRANSVERSE,
-  SPIN_ALONG,
-  SPIN_ACROSS,
-  INVERSE_CENTRAL,
-  PAIR_CONDUCTION,
-  CENTRAL_BY_SQUARE
-};
 template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct NoiseUses {
   static constexpr bool uses(int k)
   {
@@ -134,28 +44,6 @@ struct OwnTemperatures {
     return 1.0 - half_mean * inverse * softness;
   }
 };
-
-// Return the factor of the random number along e, in units of sqrt(F V_i V_j); forms with BY_SQUARE have rsq as metric
-
-template <bool BY_SQUARE> SPH_INLINE Vec central_of(const Vec *coeff, Vec rsq)
-{
-  if constexpr (BY_SQUARE)
-    return square_root(coeff[CENTRAL] * coeff[CENTRAL] + coeff[CENTRAL_BY_SQUARE] * rsq);
-  else
-    return coeff[CENTRAL];
-}
-
-// Return root; gamma_ij is root times reach of j, over c of i.  metric = r^2, or r for mg/fr
-
-template <bool BY_SQUARE>
-SPH_INLINE Vec root_of(const NoiseData &data, const Vec *coeff, Vec slope, Vec metric)
-{
-  if constexpr (BY_SQUARE) {
-    const Vec central = central_of<true>(coeff, metric);
-    return if_positive(central, square_root(data.strength * slope * metric) / (central + TINY));
-  } else
-    return square_root(slope * metric * coeff[INVERSE_CENTRAL]);
-}
 
 // Sum eta_i c_i = sum_j c_i gamma_ij xi_ij with the number xi_ij of i
 
@@ -212,19 +100,20 @@ struct NoNoise {
 // Noise of pass 2.  begin() draws the numbers of all pairs of a particle, two blocks at once, so that the long chains of
 // operations of both overlap; draw() then sets the noise of a block of pairs.
 
-template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNoise {
+template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE>
+struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQUARE> {
   static constexpr bool ON = true, VECTOR = (ACROSS == 3), CENTRAL_ONLY = (ACROSS == 0);
   static constexpr bool DIRECTED = (KIND == NoiseKind::DIRECTED);
   static constexpr bool CONDUCTS = (KIND == NoiseKind::CONDUCTION);
   static constexpr bool ENERGY = (KIND == NoiseKind::ENERGY || CONDUCTS);
+  using Force = RandomForce<ACROSS, SPIN, DIRECTED, BY_SQUARE>;
+  using Force::central;
+  using Force::rest;
+  using Force::spin;
 
-  Vec central;      // force on i along r_ij, times 1/r
-  Vec rest[3];      // force on i in other directions, if there is any
-  Vec torque[3];    // torque on both, which balances the force
-  Vec spin[3];      // torque on i, opposite on j
-  Vec friction;     // factor of the friction of the pair, if ENERGY
-  Vec flow;         // heat that i gets from j per time, if CONDUCTS
-  Vec wall;         // if CONDUCTS: 1 where j belongs to a wall, -1 where i does, else 0
+  Vec friction;    // factor of the friction of the pair, if ENERGY
+  Vec flow;        // heat that i gets from j per time, if CONDUCTS
+  Vec wall;        // if CONDUCTS: 1 where j belongs to a wall, -1 where i does, else 0
 
   struct Table : CoeffTable<NoiseCoeff> {
     Table(const LoopData &pairs) : CoeffTable(pairs.noise->coeff, pairs) {}
@@ -278,68 +167,14 @@ template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE> struct PairNois
       by_metric *= common;
     }
 
-    if constexpr (DIRECTED || !VECTOR) {
-      Vec along = z[Numbers::ALONG];
-      if constexpr (DIRECTED) {
-        const Vec root = root_of<BY_SQUARE>(data, coeff.a, slope, metric);
-        along += z[Numbers::BACK] -
-            root * (gather(data.reach, j) * data.share[i] + data.reach[i] * gather(data.share, j));
-      }
-      const Vec by_r = square_root(by_metric);
-      central = central_of<BY_SQUARE>(coeff.a, metric) * by_r * along;
-      if constexpr (ACROSS == 2) {
-        const Vec across = coeff.a[TRANSVERSE] * by_r * z[1];
-        rest[0] = -across * dy;
-        rest[1] = across * dx;
-        torque[2] = -0.5 * across * metric;
-        if constexpr (SPIN) spin[2] = coeff.a[SPIN_ACROSS] * square_root(vv) * z[2];
-      }
+    Vec along = all(0.0);
+    if constexpr (DIRECTED || !VECTOR) along = z[Numbers::ALONG];
+    if constexpr (DIRECTED) {
+      const Vec root = root_of<BY_SQUARE>(data, coeff.a, slope, metric);
+      along += z[Numbers::BACK] -
+          root * (gather(data.reach, j) * data.share[i] + data.reach[i] * gather(data.share, j));
     }
-
-    // take the part of a vector across e, or different parts along and across e
-
-    if constexpr (VECTOR) {
-      const Vec strength = square_root(vv);
-      const Vec across = strength * coeff.a[TRANSVERSE];
-      const Vec along = DIRECTED ? -across
-                                 : strength * central_of<BY_SQUARE>(coeff.a, metric) - across;
-      const Vec part = along * inverse * (dx * z[0] + dy * z[1] + dz * z[2]);
-      if constexpr (DIRECTED)
-        central += part;
-      else
-        central = part;
-      for (int k = 0; k < 3; k++) rest[k] = across * z[k];
-      if constexpr (SPIN) {
-        torque[0] = -0.5 * (dy * rest[2] - dz * rest[1]);
-        torque[1] = -0.5 * (dz * rest[0] - dx * rest[2]);
-        torque[2] = -0.5 * (dx * rest[1] - dy * rest[0]);
-        const Vec spin_across = strength * coeff.a[SPIN_ACROSS];
-        const Vec remainder = (strength * coeff.a[SPIN_ALONG] - spin_across) * inverse *
-            (dx * z[4] + dy * z[5] + dz * z[6]);
-        spin[0] = spin_across * z[4] + remainder * dx;
-        spin[1] = spin_across * z[5] + remainder * dy;
-        spin[2] = spin_across * z[6] + remainder * dz;
-      }
-    }
-  }
-
-  SPH_INLINE void add_force(Vec &fx, Vec &fy, Vec &fz) const
-  {
-    if constexpr (ACROSS > 0) {
-      fx += rest[0];
-      fy += rest[1];
-    }
-    if constexpr (VECTOR) fz += rest[2];
-  }
-
-  // Add to the torque on both and to the torque on j, opposite on i
-
-  SPH_INLINE void add_torque(Vec *on_both, Vec *on_j) const
-  {
-    for (int k = VECTOR ? 0 : 2; k < 3; k++) {
-      on_both[k] += torque[k];
-      on_j[k] -= spin[k];
-    }
+    Force::set(coeff.a, z, along, dx, dy, dz, vv, metric, by_metric, inverse);
   }
 
   // Return the power of the noise; u = relative velocity at the point of contact, s = difference of the spins
@@ -466,9 +301,8 @@ inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int fr
   const NoiseStep step(data);
   const PhiloxKeys keys = NoiseStep::keys_of(data, channel);
   for (int k = from; k < to; k += LANES) {
-    const Words tag = words(load(data.tag + k));
-    Words counter[1][4] = {{tag, shifted<32>(tag), all_words(step.low), all_words(step.high)}};
-    philox<1>(counter, keys);
+    Words counter[1][4];
+    draw_for_particle(counter, step, keys, load(data.tag + k));
     for (int c = 0; c < count; c++)
       store(numbers + c * static_cast<bigint>(n + BLOCK) + k, uniform(counter[0][c], all(1.0)));
   }

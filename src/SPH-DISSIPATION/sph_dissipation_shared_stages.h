@@ -183,8 +183,7 @@ namespace SPHDissipation {
 
   /* ---------------------------------------------------------------------- */
 
-  template <class Space>
-  DiffusionData DiffusionStage<Space>::set_rows(int not_fluid, int integrated)
+  template <class Space> void DiffusionStage<Space>::set_rows(int not_fluid, int integrated)
   {
     const ParticleRows of = this->space.rows();
     const int n = this->nall();

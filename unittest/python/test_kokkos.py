@@ -603,7 +603,7 @@ def test_drops_of_two_fluids_in_3d(lammps, style):
 
 
 @pytest.mark.parametrize("reason, options, keywords, extra", [
-    ("keyword temp", "temp 0.01 1234", "", ""),
+    ("keyword temp", "temp 0.01 1234 limit yes", "", ""),
     ("viscous", "", "viscous implicit", ""),
     ("fix sph/wall", "", "", "suffix off\nfix WALL WALL sph/wall\n"),
 ])
@@ -620,12 +620,14 @@ def test_on_the_host(lammps, style, newton, reason, options, keywords, extra):
 
 
 @pytest.mark.parametrize("style, dim, options", [
-    ("sph/bulk", 2, "temp 0.01 1234 limit yes"), ("sph/bulk", 3, "temp 0.01 1234 shear espanol volume mass"),
+    ("sph/bulk", 2, "temp 0.01 1234"), ("sph/bulk", 2, "temp 0.01 1234 shear mg/fr2"), ("sph/bulk", 2, "temp 0.01 1234 shear espanol"),
+    ("sph/micropolar", 2, "temp 0.01 1234"), ("sph/bulk", 2, "temp 0.01 1234 limit yes"), ("sph/bulk", 3, "temp 0.01 1234 shear espanol volume mass"),
     ("sph/bulk", 3, "temp 0.01 1234 limit yes shear morris"), ("sph/micropolar", 3, "temp 0.01 1234"),
     ("sph/bulk", 2, "temp energy 20.0 1234 volume mass"), ("sph/micropolar", 2, "temp energy 20.0 1234")])
 @pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
 def test_noise(lammps, style, dim, options, ranks, newton):
-    """The same numbers, with conduction of heat and different masses; momentum, and energy of motion and heat, to round-off."""
+    """The same numbers, with conduction of heat and different masses; momentum, and energy of motion and heat, to round-off.  A device
+    has the noise of one temperature without limit."""
     own = "energy" in options
     particles = disordered(dim, {2: 16, 3: 8}[dim], seed=28, jitter=0.1, ntypes=2, speed=0.1, spread=0.3 if own else 0.0)
     particles.esph[:] = 100.0
@@ -635,7 +637,8 @@ def test_noise(lammps, style, dim, options, ranks, newton):
     if "limit" in options:
         model = model.replace(" 0.5 2.0 ", " 0.5 0.0 ").replace(" 0.3 1.5 ", " 0.3 0.0 ")
     text = script(style, particles, model, 20, newton, every=5)
-    (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
+    assert any("on the host" in line for line in result.warnings) == (DEVICE_LOOPS and (own or "limit" in options))
     assert_same(style, cpu, kokkos, 1e-9)
     assert_same_totals(thermo, thermo_kokkos, 1e-9)
     before = particles.mass @ particles.v
@@ -652,6 +655,21 @@ def test_noise_at_walls(lammps, style, ranks, newton):
     (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
     assert_same(style, cpu, kokkos, 1e-9)
     assert_same_totals(thermo, thermo_kokkos, 1e-9)
+
+
+@pytest.mark.parametrize("options", ["", " kernel quintic volume mass"])
+def test_noise_of_drag(lammps, style, options):
+    """Random forces of single particles and of the pairs of two fluids, with stress of each particle."""
+    particles = disordered(2, 14, seed=30, jitter=0.1, ntypes=2, speed=0.2, spread=0.0)
+    model = "".join(line + " drag 0.4 0 0 0" * line.startswith("pair_coeff 1 1") + "\n"
+                    for line in fluids(style, 2, 2, f"temp 0.01 1234{options}").splitlines())
+    text = script(style, particles, model, 40, extra="compute S all stress/atom NULL virial\n").replace("c_F[*] ", "c_F[*] c_S[1] c_S[4] ")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, 2)
+    assert_same(style, cpu, kokkos, 1e-9)
+    assert_same_totals(thermo, thermo_kokkos, 1e-9)
+    for name in ("c_S[1]", "c_S[4]"):
+        assert relative(cpu[name] - kokkos[name], cpu[name]) < 1e-9, name
+    assert not any("on the host" in line for line in result.warnings), result.warnings
 
 
 def test_noise_of_relaxing_processes_and_drag(lammps, style):
@@ -770,24 +788,60 @@ def test_changes_of_the_model(lammps, change):
     assert relative(same["Press"] - changed["Press"], same["Press"]) > 1e-6, "nothing has changed"
 
 
-@pytest.mark.skipif(not DEVICE_LOOPS, reason="on a host the same code runs")
-@pytest.mark.parametrize("law", ["power 0.6 0.01 5 yield 0.1 10", "thixotropy 1.5 2 5"])
-def test_rate_of_shear_on_the_host(lammps, law):
-    """Viscosities that are not constant, with a warning."""
-    particles = disordered(2, 12)
-    relax.write(particles, lammps.path("room.txt"), np.full((len(particles), 1), 0.3), "sph/bulk")
-    text = script("sph/bulk", particles, fluid(2, keywords=law), 5).replace("c_F[*] ", "c_F[*] d_structure ").replace("data.txt", "room.txt")
-    (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, text.replace("atom_style sph/bulk", "atom_style sph/bulk thixotropy"))
-    assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
-    assert np.abs(found["d_structure"] - expected["d_structure"]).max() < 1e-13
-    assert any("not constant" in warning for warning in result.warnings)
+LAWS = ("power 0.6 0.01 5 yield 0.1 10", "carreau 2 0.5 2 0.1 smagorinsky 0.5 3", "cross 2 0.7 0.1 cv 2 arrhenius 1 1.2 40", "thixotropy 1.5 2 5")
 
 
-@pytest.mark.skipif(not DEVICE_LOOPS, reason="on a host the same code runs")
-def test_tension_on_the_host(lammps):
-    """Of two fluids, with a warning."""
-    particles = disordered(2, 12, ntypes=2)
-    model = fluids("sph/bulk", 2, 2) + "pair_coeff 1 2 tension 0.7\n"
-    (expected, _, _), (found, _, result) = both(lammps, "sph/bulk", particles, script("sph/bulk", particles, model, 5))
-    assert relative(found["f"] - expected["f"], expected["f"]) < 1e-12
-    assert any("a tension of fluids" in warning for warning in result.warnings)
+@pytest.mark.parametrize("ranks, options", [(1, ""), (2, "shear mg/fr2 volume mass"), (4, "density continuity")])
+@pytest.mark.parametrize("law", LAWS)
+def test_rate_of_shear(lammps, law, ranks, options):
+    """Viscosities that are not constant, in one fluid and between two; the rates and structures move with particles that change processors."""
+    particles = disordered(2, 14, ntypes=2, jitter=0.1, speed=0.5, spread=0.0)
+    relax.write(particles, lammps.path("room.txt"), np.full((len(particles), 1), 0.3) * (particles.type[:, None] == 1), "sph/bulk")
+    words = {"pair_coeff 1 1": f" {law}"}
+    model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids("sph/bulk", 2, 2, options).splitlines())
+    text = script("sph/bulk", particles, model, 60, extra="compute G all property/atom shear_rate\n").replace("data.txt", "room.txt")
+    text = text.replace("c_F[*] ", "c_F[*] c_G d_structure ").replace("atom_style sph/bulk", "atom_style sph/bulk thixotropy")
+    if "arrhenius" in law:
+        text = text.replace("fix FLUID all sph/bulk", "variable T atom 1.0+0.02*x\nfix FLUID all sph/bulk temperature v_T")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, "sph/bulk", particles, text, ranks)
+    assert_same("sph/bulk", cpu, kokkos, 1e-9)
+    assert_same_totals(thermo, thermo_kokkos, 1e-9)
+    for name in ("c_G", "d_structure"):
+        assert relative(cpu[name] - kokkos[name], np.append(cpu[name], 1e-3)) < 1e-9, name
+    assert cpu["c_G"].max() > 0.1 and (np.ptp(cpu["d_structure"][cpu["type"] == 1]) > 0.1) == ("thixotropy" in law)
+    assert not any("on the host" in line for line in result.warnings), result.warnings
+
+
+@pytest.mark.parametrize("ranks, vessel, newton", [(1, "channel", "on"), (2, "wheel", "off")])
+def test_rate_of_shear_with_walls(lammps, ranks, vessel, newton):
+    """The rate of a particle beside a wall is that with the velocity of the wall in the forces."""
+    style = "sph/bulk"
+    particles = disordered(2, 20, seed=22, jitter=0.05, speed=0.3, spread=0.0)
+    model = fluid(2, "", keywords=LAWS[0])
+    text = with_walls(style, particles, vessel, model, 60, newton).replace("c_F[*] ", "c_F[*] c_G ")
+    result = compare(lammps, style, particles, text.replace("thermo 60", "compute G all property/atom shear_rate\nthermo 60"), ranks)
+    assert not any("on the host" in line for line in result.warnings), result.warnings
+
+
+@pytest.mark.parametrize("dim, ranks, newton, words", [
+    (2, 1, "on", "pair_coeff 1 2 tension 0.7"), (2, 2, "off", "pair_coeff 1 1 cohesion 0.4\npair_coeff 2 2 cohesion 0.9\npair_coeff 1 2 tension 0.2"),
+    (3, 4, "on", "pair_coeff 1 1 cohesion 0.4\npair_coeff 1 2 tension 0.7"), (2, 1, "on", "pair_coeff 2 2 cohesion 0.4")])
+def test_tension(lammps, dim, ranks, newton, words):
+    """Of two fluids and of free surfaces, in energy and stress of each particle; a coefficient changes on the way."""
+    style = "sph/bulk"
+    particles = disordered(dim, 8 if dim == 3 else 14, ntypes=2, jitter=0.1, speed=0.3, spread=0.0)
+    particles = particles.where(np.linalg.norm(particles.x - 0.5 * (particles.lo + particles.hi), axis=1) < (3.6 if dim == 3 else 6.5))
+    model = fluids(style, dim, 2) + words + "\n"
+    extra = ("compute P all pe/atom\ncompute S all stress/atom NULL virial\nvariable T equal 0.5+0.01*step\n"
+             "compute U all reduce sum c_P\n")
+    if "tension" in words:
+        extra += f"fix CHANGE all adapt 5 pair {style} tension 1 2 v_T\n"
+    own = ("c_P", *(f"c_S[{k}]" for k in range(1, 7)))
+    text = script(style, particles, model, 40, newton, extra=extra).replace("c_F[*] ", f"c_F[*] {' '.join(own)} ").replace(" c_E\n", " c_E c_E[5] c_U\n")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
+    assert_same(style, cpu, kokkos, 1e-9)
+    assert_same_totals(thermo, thermo_kokkos, 1e-9)
+    assert abs(thermo["c_E[5]"]) > 0.1
+    for name in own:
+        assert relative(cpu[name] - kokkos[name], np.append(cpu[name], 1e-3)) < 1e-9, name
+    assert not any("on the host" in line for line in result.warnings), result.warnings
