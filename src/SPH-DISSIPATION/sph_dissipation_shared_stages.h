@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_SHARED_STAGES_H
 #define LMP_SPH_DISSIPATION_SHARED_STAGES_H
 
-// Functions of the stages that run on the host and on a device, see HostSpace; sph_dissipation_stages.cpp and the sources of
+// Functions of the stages that run on the host and on a device, see HostSpace; sph_dissipation_host_stages.cpp and the sources of
 // src/KOKKOS that run stages include this file.
 
 #include "atom.h"

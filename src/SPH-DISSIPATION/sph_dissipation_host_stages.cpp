@@ -11,12 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#include "sph_dissipation_stages.h"
-
 #include "atom.h"
 #include "force.h"
 #include "math_extra.h"
-#include "neigh_list.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_shared_stages.h"
 
@@ -26,14 +23,14 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
+// The space of the host; stages, and functions of stages, that run on the host alone; the shared ones on the host
+
 /* ---------------------------------------------------------------------- */
 
 int Stage::nforce() const
 {
   return force->newton_pair ? atom->nlocal + atom->nghost : atom->nlocal;
 }
-
-/* ---------------------------------------------------------------------- */
 
 int HostSpace::nforce() const
 {
