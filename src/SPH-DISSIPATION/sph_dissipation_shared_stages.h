@@ -14,8 +14,8 @@
 #ifndef LMP_SPH_DISSIPATION_SHARED_STAGES_H
 #define LMP_SPH_DISSIPATION_SHARED_STAGES_H
 
-// Functions of the stages that run on the host and on a device, see HostSpace; sph_dissipation_host_stages.cpp and the sources of
-// src/KOKKOS that run stages include this file.
+// Functions of the stages that run on the host and on a device, see HostSpace; included by sph_dissipation_host_stages.cpp
+// and the sources of src/KOKKOS that run stages
 
 #include "atom.h"
 #include "force.h"
