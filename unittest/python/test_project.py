@@ -166,7 +166,7 @@ def test_workflow_runs_what_is_there(path):
         assert 0 < job["timeout-minutes"] <= 180
     steps = [step for job in jobs.values() for step in job["steps"]]
     for command in [step["run"].split()[0] for step in steps if "run" in step]:
-        assert command in ("sudo", "clang-format-14") or os.access(ROOT / command, os.X_OK)
+        assert command in ("sudo", "brew", "clang-format-14") or os.access(ROOT / command, os.X_OK)
     for step in steps:
         if step.get("uses", "").startswith("actions/cache@"):
             assert "sha" not in step["with"]["key"] and step["with"]["key"].startswith(step["with"]["restore-keys"])
@@ -176,7 +176,7 @@ def test_workflow_runs_what_is_there(path):
 
 def test_workflows_run_the_tests_and_the_manual():
     text = "".join(path.read_text() for path in WORKFLOWS)
-    for command in (".ci/run", "./sphd test --kokkos", "./sphd doc", ".ci/pages"):
+    for command in (".ci/run", "./sphd test --kokkos", "./sphd doc", ".ci/pages", ".ci/packaging", "brew"):
         assert f"- run: {command}" in text
 
 
