@@ -132,6 +132,21 @@ def test_version():
     assert done.stdout.startswith(f"SPH-DISSIPATION {VERSION}, commit ")
 
 
+@pytest.mark.skipif(not VERSION.endswith("-dev"), reason="this is a release")
+def test_commands_of_a_release(tmp_path):
+    """They write one version and one date into all files that test_version compares."""
+    for name in ("VERSION", "CITATION.cff", "CHANGELOG.md", "doc/src/Howto_sph_citing.rst"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    commands = re.search(r"^```\n(version=.*?)^```$", (ROOT / "doc" / "contributing" / "release.md").read_text(), re.MULTILINE | re.DOTALL)[1]
+    subprocess.run(["bash", "-e", "-c", commands], cwd=tmp_path, check=True)
+    version, citation = (tmp_path / "VERSION").read_text().strip(), yaml.safe_load((tmp_path / "CITATION.cff").read_text(encoding="utf-8"))
+    assert version == VERSION.partition("-")[0] == citation["version"]
+    assert f"version = {{{version}}}" in (tmp_path / "doc" / "src" / "Howto_sph_citing.rst").read_text(encoding="utf-8")
+    changes = re.findall(r"^## (.*)", (tmp_path / "CHANGELOG.md").read_text(), re.MULTILINE)
+    assert changes[0] == f"{version} ({citation['date-released']})" and "Unreleased" not in changes
+
+
 def test_version_of_the_manual(monkeypatch):
     configuration = {"__file__": str(ROOT / "doc" / "src" / "conf.py")}
     monkeypatch.setattr(sys, "path", list(sys.path))
