@@ -89,8 +89,8 @@ def keywords(*needs):
 
 
 def test_names_of_numbers():
-    """... of the keywords of pair_coeff, which a message about too few of them has, are those of the page, in their order and number."""
-    page = (ROOT / "doc" / "src" / "pair_sph_bulk.rst").read_text()
+    """... of the keywords of pair_coeff, which a message about too few of them has, are those of the pages, in their order and number."""
+    page = "".join(path.read_text() for path in (ROOT / "doc" / "src").glob("pair_sph_bulk*.rst"))
     rows = [row for file in SOURCES for row in re.findall(r'\{"(\w+)",\s+"([^"]*)",\s+(\w+),\s+\w+,\s+[A-Z_ |]+(?:, true)?\}', file.read_text())]
     assert len(rows) == 14
     for name, words, count in rows:
@@ -160,7 +160,7 @@ REFUSALS = {
     "Pair style {} temp cannot be used with {} of pair_coeff": [
         (NOISE, "*temp*", keywords("NO_NOISE")), (NOISE, "*temp T seed*", ["*conductivity*", "*gruneisen*"]), ("pair_sph_bulk_heat", "*temp T seed*", ["*conductivity*", "*gruneisen*"]),
         ("pair_sph_bulk_relax", "*vibration*", "*temp*"), ("pair_sph_bulk_heat", "*solute*", "*temp*"), (RHEOLOGY, "*arrhenius*", "*temp*")],
-    "Pair_coeff {} of type {} cannot be used with eos {}": [("pair_sph_bulk_relax", "*eos ideal* are required"), (PAIR, "*gruneisen*", "with *eos linear* and *tait*")],
+    "Pair_coeff {} of type {} cannot be used with eos {}": [("pair_sph_bulk_relax", "*eos ideal* are required"), ("pair_sph_bulk_heat", "*gruneisen*", "with *eos linear* and *tait*")],
     "cannot be used with limit of pair_style": [(RHEOLOGY, LAWS, "*limit*")],
     "cannot be used with temp of pair_style": [(RHEOLOGY, LAWS, "*temp*"), (NOISE, "*temp*", LAWS)],
     "cannot be used with a mu of the unlike types": [(RHEOLOGY, LAWS, "a *mu* of unlike types")],

@@ -46,6 +46,14 @@ def test_install(tmp_path):
     assert found.version.startswith((ROOT / "VERSION").read_text().strip().partition("-")[0])
 
 
+def test_copy_without_the_fluids(tmp_path):
+    """The fluids are a link of the sources: a copy of it alone says what to do."""
+    shutil.copytree(ROOT / "python" / "sph_dissipation", tmp_path / "sph_dissipation", symlinks=True)
+    done = subprocess.run([sys.executable, "-c", "import sph_dissipation as sph; sph.fluids.find('water')"], cwd=tmp_path, env={**os.environ, "PYTHONPATH": ""},
+                          stderr=subprocess.PIPE, text=True, check=False)
+    assert "cp -rL" in done.stderr
+
+
 def test_without_numpy():
     """./sphd plan works with a Python that has nothing else."""
     text = printed("-S", "-c", "import sys; from sph_dissipation import plan; plan.main(); assert 'numpy' not in sys.modules", *CASE.split(), "--lmp",

@@ -132,6 +132,21 @@ def test_version():
     assert done.stdout.startswith(f"SPH-DISSIPATION {VERSION}, commit ")
 
 
+@pytest.mark.skipif(not VERSION.endswith("-dev"), reason="this is a release")
+def test_commands_of_a_release(tmp_path):
+    """They write one version and one date into all files that test_version compares."""
+    for name in ("VERSION", "CITATION.cff", "CHANGELOG.md", "doc/src/Howto_sph_citing.rst"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    commands = re.search(r"^```\n(version=.*?)^```$", (ROOT / "doc" / "contributing" / "release.md").read_text(), re.MULTILINE | re.DOTALL)[1]
+    subprocess.run(["bash", "-e", "-c", commands], cwd=tmp_path, check=True)
+    version, citation = (tmp_path / "VERSION").read_text().strip(), yaml.safe_load((tmp_path / "CITATION.cff").read_text(encoding="utf-8"))
+    assert version == VERSION.partition("-")[0] == citation["version"]
+    assert f"version = {{{version}}}" in (tmp_path / "doc" / "src" / "Howto_sph_citing.rst").read_text(encoding="utf-8")
+    changes = re.findall(r"^## (.*)", (tmp_path / "CHANGELOG.md").read_text(), re.MULTILINE)
+    assert changes[0] == f"{version} ({citation['date-released']})" and "Unreleased" not in changes
+
+
 def test_version_of_the_manual(monkeypatch):
     configuration = {"__file__": str(ROOT / "doc" / "src" / "conf.py")}
     monkeypatch.setattr(sys, "path", list(sys.path))
@@ -166,7 +181,7 @@ def test_workflow_runs_what_is_there(path):
         assert 0 < job["timeout-minutes"] <= 180
     steps = [step for job in jobs.values() for step in job["steps"]]
     for command in [step["run"].split()[0] for step in steps if "run" in step]:
-        assert command in ("sudo", "clang-format-14") or os.access(ROOT / command, os.X_OK)
+        assert command in ("sudo", "brew", "clang-format-14") or os.access(ROOT / command, os.X_OK)
     for step in steps:
         if step.get("uses", "").startswith("actions/cache@"):
             assert "sha" not in step["with"]["key"] and step["with"]["key"].startswith(step["with"]["restore-keys"])
@@ -176,7 +191,7 @@ def test_workflow_runs_what_is_there(path):
 
 def test_workflows_run_the_tests_and_the_manual():
     text = "".join(path.read_text() for path in WORKFLOWS)
-    for command in (".ci/run", "./sphd test --kokkos", "./sphd doc", ".ci/pages"):
+    for command in (".ci/run", "./sphd test --kokkos", "./sphd doc", ".ci/pages", ".ci/packaging", "brew"):
         assert f"- run: {command}" in text
 
 

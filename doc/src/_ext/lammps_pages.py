@@ -63,10 +63,11 @@ def remove_versions(app, doctree):
 
 
 def name_pages_of_equations(app, doctree, docname):
+    pages = {label.lower(): page for label, (page, _) in app.env.get_domain("math").equations.items()}
     for node in doctree.findall(nodes.reference):
         page, _, place = node.get("refuri", "").partition("#equation-")
         if place and page:
-            word = page.rpartition("/")[2].partition(".")[0].rpartition("_")[2]
+            word = pages[place.lower()].rpartition("_")[2]
             node.replace(node[0], nodes.Text(node.astext().replace(")", f", {word})")))
 
 
