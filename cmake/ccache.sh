@@ -6,7 +6,7 @@ shift
 for word; do
   case $word in
     *.gch)
-      rm -f "$word.sum"
+      rm -f "$word" "$word.sum"    # else the old one is included in the new one
       ccache "$@" && sha256sum <"$word" >"$word.sum"
       exit
       ;;
