@@ -780,7 +780,10 @@ run             {self.steps}
 """
 
     def measured(self, thermo):
-        return [beside("kinetic energy of the colloid over 3 kT/2", thermo["f_K"][-1], thermo["v_theory"][-1])]
+        memory = self.inside * self.rho * self.dx**3 / (6 * math.pi * self.mu * self.args.colloid)    # of the velocity, by Stokes's drag
+        chance = math.sqrt(2 / 3 * memory / thermo["Time"][-1])
+        return [beside("kinetic energy of the colloid over 3 kT/2", thermo["f_K"][-1], thermo["v_theory"][-1])
+                + f", with a statistical error of about {100 * chance:.1g} %"]
 
     def figure(self, plt, thermo):
         figure, axes = plt.subplots()

@@ -149,6 +149,8 @@ def test_colloid(lammps, case, steps):
     if not steps:
         (columns,) = result.thermo()
         assert columns["f_K"][-1] == pytest.approx(columns["v_theory"][-1], rel=0.1)
+        (line,) = plan.measured(columns)
+        assert line.startswith("kinetic energy") and line.endswith("a statistical error of about 8 %")
 
 
 FIRST = {"colloid": COLLOID, "sound": "--fluid CO2 --frequency 30e3", "column": "--fluid water --column 0.6 --tank 3.22", "channel": "--rho 1 --mu 0.1 --channel 1 --velocity 1 --yield 0.2",
