@@ -120,7 +120,7 @@ def test_shells():
 
 def test_the_input_of_the_page(lammps):
     """What the command writes is a body in a fluid: the ball sinks, and its velocity becomes steady."""
-    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "ball.data" in text)
+    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "ball.data" in text and "vessel" not in text)
     write_binary(lammps.path("ball.stl"), sphere(220.0))
     fill.main([str(lammps.path("ball.stl")), "0.1", *"--scale 0.001 --move 0.5 0.5 0.5 --inside 2 --density 2.0 --out".split(),
                str(lammps.path("ball.data"))])
@@ -130,6 +130,21 @@ def test_the_input_of_the_page(lammps):
     assert table["v_M"][0] == pytest.approx(0.002 * len(within), rel=1e-12)
     assert np.abs(table["v_p"]).max() < 1e-12 and -1.0 < table["v_w"][-1] < -0.05
     assert abs(table["v_w"][-1] - table["v_w"][-2]) < 0.2 * abs(table["v_w"][-1])
+
+
+def test_the_vessel_of_the_page(lammps, monkeypatch):
+    """A ball floats in an open vessel: its center at the level, and the vessel carries the weight of both."""
+    page = ROOT / "doc" / "src" / "Howto_sph_bodies.rst"
+    (text,) = (text for _, _, text, _ in blocks(page) if "vessel.data" in text)
+    monkeypatch.chdir(lammps.path("."))
+    write_binary(lammps.path("vessel.stl"), cube()[:-2])
+    write_binary(lammps.path("ball.stl"), sphere(220.0))
+    for words in re.findall(r"sphd fill (vessel.stl .* --level .*|ball.stl .* --inside 3 .*)", page.read_text()):
+        fill.main(words.split())
+    result = lammps(text.replace("run             2000", "run             1000"))
+    (table,) = result.thermo()
+    assert not result.warnings and np.abs(table["v_z"] - 0.7).max() < 0.01
+    assert table["v_down"][1:] == pytest.approx(-1.0, abs=0.01)
 
 
 @pytest.mark.parametrize("words, message", [
