@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-only
-"""Particles in and around a closed surface of triangles, an STL file: bodies, and vessels with their walls.
+"""Particles in and around a surface of triangles, an STL file: bodies, and vessels with their walls.
 
     python3 -m sph_dissipation.fill SHAPE.stl SPACING        (./sphd fill)
 
@@ -42,12 +42,12 @@ def read_stl(path):
     return triangles
 
 
-def weld(triangles):
-    """The same triangles, with those corners in one place that are nearer to each other than a part WELD of the size of the shape."""
+def weld(triangles, apart=None):
+    """The same triangles, with those corners in one place that are nearer to each other (default: than a part WELD of the size of the shape)."""
     import numpy as np
 
     points, number = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
-    apart = WELD * np.ptp(points, axis=0).max()
+    apart = apart or WELD * np.ptp(points, axis=0).max()
     label, count, before = np.zeros(len(points), dtype=np.int64), 1, 0
     # groups are divided where they have a gap along an axis, until they have none
     while count > before:
@@ -77,6 +77,42 @@ def open_edges(triangles):
     return corners[edges[np.sort(which)]]
 
 
+def holes(edges):
+    """Groups of open edges that hang together, the largest first."""
+    import numpy as np
+
+    _, number = np.unique(edges.reshape(-1, 3), axis=0, return_inverse=True)
+    number = number.reshape(-1, 2)
+    label = np.arange(number.max(initial=-1) + 1)
+    before = None
+    while before is None or (label != before).any():    # the smallest number of a group spreads along its edges
+        before, smallest = label, label[number].min(axis=1)
+        label = label.copy()
+        for end in number.T:
+            np.minimum.at(label, end, smallest)
+        label = label[label]
+    groups = label[number[:, 0]]
+    return sorted((edges[groups == name] for name in np.unique(groups)), key=len, reverse=True)
+
+
+def where(edges):
+    """Words that say where the holes of a surface are, and which --weld would close cracks."""
+    import numpy as np
+
+    parts = holes(edges)
+    text = f"{len(edges)} edges have no triangle on one side: " + "; ".join(
+        f"{len(part)} around ({' '.join(f'{place:.6g}' for place in part.mean(axis=(0, 1)))}), {np.ptp(part, axis=(0, 1)).max():.3g} wide"
+        for part in parts[:3]) + ("; ..." if len(parts) > 3 else "")
+    corners = np.unique(edges.reshape(-1, 3), axis=0)
+    if len(corners) <= 3000:
+        apart = np.linalg.norm(corners[:, None] - corners, axis=2)
+        np.fill_diagonal(apart, np.inf)
+        gap, edge = apart.min(axis=1).max(), np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1).min()
+        if gap < 0.1 * edge:
+            text += f"; --weld {2 * gap:.1g} joins their corners, which are at most {gap:.2g} apart"
+    return text
+
+
 def volume(triangles):
     """Of a closed surface, by the divergence theorem; negative if the triangles are clockwise as seen from outside."""
     import numpy as np
@@ -85,16 +121,16 @@ def volume(triangles):
 
 
 def inside(triangles, axes):
-    """Which points of a lattice, the product of three sorted axes, a closed surface surrounds.
+    """Which points of a lattice, the product of three sorted axes, a surface surrounds, which may be open above them.
 
-    The winding number: the signed number of triangles above a point.  A triangle is above it if its projection along z surrounds
+    The winding number: the signed number of triangles below a point.  A triangle is below it if its projection along z surrounds
     that of the point, counted by the edges that a ray along x crosses.  Triangles with a common edge calculate the same crossing:
     no ray passes between them, nor meets both.
     """
     import numpy as np
 
     x, y, z = axes
-    change = np.zeros((len(x), len(y), len(z) + 1), dtype=np.int32)    # of the winding number, below each height of a triangle
+    change = np.zeros((len(x), len(y), len(z) + 1), dtype=np.int32)    # of the winding number, above each height of a triangle
     for triangle in triangles:
         low, high = triangle.min(axis=0), triangle.max(axis=0)
         rows = slice(*np.searchsorted(y, (low[1], high[1]), side="left"))
@@ -117,10 +153,9 @@ def inside(triangles, axes):
         height = np.full(len(i), triangle[:, 2].mean())
         if normal[2]:
             height = triangle[0, 2] - ((x[columns][i] - triangle[0, 0]) * normal[0] + (y[rows][j] - triangle[0, 1]) * normal[1]) / normal[2]
-        below = np.searchsorted(z, np.clip(height, low[2], high[2]), side="left")
-        np.add.at(change, (columns.start + i, rows.start + j, below), turns[i, j])
-    above = change[:, :, ::-1].cumsum(axis=2, dtype=np.int32)[:, :, ::-1]
-    return above[:, :, 1:] != 0
+        first = np.searchsorted(z, np.clip(height, low[2], high[2]), side="left")
+        np.add.at(change, (columns.start + i, rows.start + j, first), turns[i, j])
+    return change.cumsum(axis=2, dtype=np.int32)[:, :, :-1] != 0
 
 
 def near(triangles, axes, distance):
@@ -147,13 +182,14 @@ def near(triangles, axes, distance):
     return found
 
 
-def check_size(triangles, spacing, thickness=0.0):
+def check_size(triangles, spacing, thickness=0.0, level=None):
     """About how many particles there are; ValueError if LAMMPS cannot number them, or the memory of this machine does not hold them."""
     import numpy as np
 
     low, high = triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1))
     sides = np.linalg.norm(np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
-    number = (abs(volume(triangles)) + 0.5 * sides.sum() * thickness) / spacing**3
+    size = abs(volume(triangles)) if level is None else np.prod(np.minimum(high, [np.inf, np.inf, level]) - low)
+    number = (size + 0.5 * sides.sum() * thickness) / spacing**3
     about = f"needs about {number:.3g} particles at a spacing of {spacing:g}"
     if number > MOST:
         raise ValueError(f"{about}, and LAMMPS numbers at most {MOST}: take a larger spacing")
@@ -171,18 +207,16 @@ def memory_of_machine():
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
-def fill(triangles, spacing, thickness=0.0):
-    """Positions of the particles inside of a closed surface, and of those outside at most a thickness away from it."""
-    import numpy as np
-
-    number = check_size(triangles, spacing, thickness)
+def fill(triangles, spacing, thickness=0.0, level=None):
+    """Positions of the particles inside of a surface and below a level, and of those outside at most a thickness away from the surface."""
+    number = check_size(triangles, spacing, thickness, level)
     try:
-        return lattice_points(triangles, spacing, thickness)
+        return lattice_points(triangles, spacing, thickness, level)
     except MemoryError:
         raise ValueError(f"needs about {number:.3g} particles at a spacing of {spacing:g}, for which the memory is not enough: take a larger spacing") from None
 
 
-def lattice_points(triangles, spacing, thickness):
+def lattice_points(triangles, spacing, thickness, level):
     import numpy as np
 
     margin = thickness + spacing
@@ -190,6 +224,8 @@ def lattice_points(triangles, spacing, thickness):
             for low, high in zip(triangles.min(axis=(0, 1)), triangles.max(axis=(0, 1)))]
     within = inside(triangles, axes)
     outside = near(triangles, axes, thickness) & ~within if thickness > 0 else np.zeros_like(within)
+    if level is not None:
+        within &= axes[2] < level
     return [np.column_stack([axis[index] for axis, index in zip(axes, np.nonzero(which))]) for which in (within, outside)]
 
 
@@ -234,11 +270,13 @@ def kind(text):
 
 
 def arguments(argv=None):
-    parser = argparse.ArgumentParser(prog="./sphd fill", description="Fills a closed STL file with particles, and writes a data file of LAMMPS.")
+    parser = argparse.ArgumentParser(prog="./sphd fill", description="Fills a surface, an STL file, with particles, and writes a data file of LAMMPS.")
     parser.add_argument("shape", type=Path, metavar="SHAPE.stl")
     parser.add_argument("spacing", type=positive, metavar="SPACING", help="of the particles")
     parser.add_argument("--scale", type=positive, default=1.0, help="multiplies the coordinates of the file (default: 1)")
     parser.add_argument("--move", type=finite, nargs=3, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z"), help="moves the shape then")
+    parser.add_argument("--weld", type=positive, metavar="D", help="corners of the file nearer than this are one (default: a millionth of the size of the shape)")
+    parser.add_argument("--level", type=finite, metavar="Z", help="fills up to this height, after --scale and --move; the surface may be open above it")
     parser.add_argument("--inside", type=kind, default=1, metavar="TYPE", help="of the particles inside; 0: none (default: 1)")
     parser.add_argument("--outside", type=kind, default=0, metavar="TYPE", help="of particles around the shape, the wall of a vessel")
     parser.add_argument("--thickness", type=positive, metavar="D", help="of the particles around it; at least the support radius")
@@ -259,26 +297,29 @@ def run(args):
     if not 0 < mass < math.inf:
         raise SystemExit(f"fill: --density {args.density:g} times {args.spacing:g}^3, the mass of a particle, is {mass:g}: take other units")
     try:
-        triangles = weld(read_stl(args.shape))
-        holes = open_edges(triangles)
-        if len(holes):
-            places = ", ".join("({:.6g} {:.6g} {:.6g})".format(*place) for place in holes.mean(axis=1)[:3])
-            raise ValueError(f"is not closed: {len(holes)} edges have no triangle on one side, the first ones at {places}")
+        triangles = weld(read_stl(args.shape), args.weld)
+        edges = open_edges(triangles)
+        if args.level is not None:    # holes above it do not matter
+            edges = edges[edges[:, :, 2].min(axis=1) * args.scale + args.move[2] < args.level]
+        if len(edges):
+            raise ValueError(f"is not closed{'' if args.level is None else ' below the level'}: {where(edges)}"
+                             + ("; --level fills an open vessel" if args.level is None else ""))
         triangles = triangles * args.scale + np.array(args.move)
         if not np.isfinite(triangles).all():
             raise ValueError("is too large, with --scale and --move, for a computer to calculate with")
         path = args.out or Path(args.shape.with_suffix(".data").name)
         if path.exists() and path.samefile(args.shape):
             raise ValueError("is the file to be written: name another one by --out")
-        points = fill(triangles, args.spacing, args.thickness or 0.0)
+        points = fill(triangles, args.spacing, args.thickness or 0.0, args.level)
         if not len(points[0]):
-            raise ValueError(f"has no room for particles at a spacing of {args.spacing:g}")
+            raise ValueError(f"has no room for particles at a spacing of {args.spacing:g}{'' if args.level is None else ' below the level'}")
     except ValueError as error:
         raise SystemExit(f"fill: {args.shape} {error}") from None
     groups = [(number, x) for number, x in zip((args.inside, args.outside), points) if number]
     write_data(path, groups, args.spacing, mass)
-    size = abs(volume(triangles))
-    print(f"{len(triangles)} triangles around a volume of {size:.6g}, filled by {len(points[0]) * args.spacing**3 / size:.4f} of it")
+    size, filled = abs(volume(triangles)), len(points[0]) * args.spacing**3
+    print(f"{len(triangles)} triangles around a volume of {size:.6g}, filled by {filled / size:.4f} of it" if args.level is None else
+          f"{len(triangles)} triangles, filled up to z = {args.level:g} by a volume of {filled:.6g}")
     for number, x in groups:
         print(f"type {number}: {len(x)} particles")
     print(f"wrote {path}")

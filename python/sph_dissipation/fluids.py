@@ -196,8 +196,8 @@ def read(path):
 def find(name):
     """Fluid of this name in any case: of gases.sph, of fluids.sph, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]; KeyError with all names,
     ValueError if there is no such air"""
-    if not POTENTIALS.is_dir():    # a link of the sources
-        raise FileNotFoundError(f"there is no folder {POTENTIALS}; copy the Python package with cp -rL, or install it with pip install ./python")
+    if not POTENTIALS.exists():    # it is a link, and only the folder of the Python package was copied
+        raise FileNotFoundError(f"no files of fluids in {POTENTIALS}, a link to potentials of the repository; copy with cp -rL, or install with pip")
     known = {**read(POTENTIALS / "fluids.sph"), **read(POTENTIALS / "gases.sph")}
     in_any_case = {one.lower(): fluid for one, fluid in known.items()}
     if name.lower() in in_any_case:

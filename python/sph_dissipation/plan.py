@@ -20,6 +20,7 @@ measured beside theory.
 import argparse
 import cmath
 import difflib
+import importlib
 import itertools
 import math
 import os
@@ -411,6 +412,24 @@ timestep        {self.dt:.3g}
         return (f"dump            1 all custom {max(self.steps // 20, 1)} {self.name}.dump id type x y z vx vy vz\n"
                 f"thermo          {max(self.steps // 100, 1)}\nrun             {self.steps}\n")
 
+    def measured(self, thermo):
+        """lines, from the columns of the log"""
+        if not self.part:
+            return []
+        import numpy as np
+
+        # a exp(s t), whose s is corrected by the fitted b of (a + b t) exp(s t); after a period, when slower modes are gone
+        s = self.part[1]
+        late = thermo["Time"] > 2 * math.pi / s.imag
+        time, values = thermo["Time"][late], thermo["c_amplitude"][late]
+        if len(time) < 20:
+            return []
+        for _ in range(20):
+            mode = np.exp(s * time)
+            a, b, c, d = np.linalg.lstsq(np.column_stack([mode.real, -mode.imag, time * mode.real, -time * mode.imag]), values, rcond=None)[0]
+            s += complex(c, d) / complex(a, b)
+        return [beside("frequency", s.imag / (2 * math.pi), self.part[1].imag / (2 * math.pi)), beside("rate of decay", -s.real, -self.part[1].real)]
+
     def figure(self, plt, thermo):
         """of what is measured beside theory, from the columns of the log"""
         figure, axes = plt.subplots()
@@ -536,6 +555,17 @@ thermo_style    custom step time v_front c_push c_mean v_theory cpuremain
 thermo_modify   norm no
 {self.ends()}"""
 
+    def measured(self, thermo):
+        push, mean = thermo["c_push"], thermo["c_mean"]
+        if not self.falls:
+            return [beside("mean force on the far wall", push[1:].mean(), thermo["v_theory"][0])]
+        wet = thermo["v_front"] > (self.tank - 0.5) * self.dx
+        if not wet.any():
+            return []
+        first, ritter = wet.argmax(), (self.tank - self.width) * self.dx / (2 * math.sqrt(self.gravity * self.args.column))
+        return [f"the front is at the far wall at {thermo['Time'][first]:.4g}; Ritter's front, which is faster, at {ritter:.4g}",
+                beside("mean force on this wall from then on", push[first:].mean(), mean[first:].mean(), "by the pressure in the water")]
+
     def figure(self, plt, thermo):
         figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.5), layout="constrained")
         left.plot(thermo["Time"], thermo["v_front"], label="front")
@@ -643,6 +673,9 @@ variable        balance equal {self.at_wall:.6g}            # ... in the end
 thermo_style    custom step time v_mean v_theory v_stress v_balance cpuremain
 {self.ends()}"""
 
+    def measured(self, thermo):
+        return [beside("mean velocity", thermo["v_mean"][-1], self.mean()), beside("stress at the walls", thermo["v_stress"][-20:].mean(), self.at_wall)]
+
     def figure(self, plt, thermo):
         from . import each_frame
         *_, (_, last) = each_frame(f"{self.name}.dump")
@@ -746,6 +779,12 @@ dump            1 all custom {every} {self.name}.dump id type x y z vx vy vz
 run             {self.steps}
 """
 
+    def measured(self, thermo):
+        memory = self.inside * self.rho * self.dx**3 / (6 * math.pi * self.mu * self.args.colloid)    # of the velocity, by Stokes's drag
+        chance = math.sqrt(2 / 3 * memory / thermo["Time"][-1])
+        return [beside("kinetic energy of the colloid over 3 kT/2", thermo["f_K"][-1], thermo["v_theory"][-1])
+                + f", with a statistical error of about {100 * chance:.1g} %"]
+
     def figure(self, plt, thermo):
         figure, axes = plt.subplots()
         axes.plot(thermo["Time"][1:], thermo["f_K"][1:], "o-", label="mean since the start")
@@ -753,6 +792,10 @@ run             {self.steps}
         axes.set(xlabel=self.label("time", "s"), ylabel="kinetic energy of the colloid over 3 kT/2", ylim=(0, None))
         axes.legend()
         return figure
+
+
+def beside(what, measured, reference, name="theory"):
+    return f"{what} {measured:.4g}, {name} {reference:.4g}" + (f": {100 * (measured / reference - 1):+.2g} %" if reference else "")
 
 
 def measured_time(plan, lmp):
@@ -837,7 +880,7 @@ def arguments(argv):
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
-    parser.add_argument("--run", action="store_true", help="write the input in.NAME, run it, and keep log.NAME; NAME: sound, column, channel, colloid, or flow")
+    parser.add_argument("--run", action="store_true", help="write the input in.NAME, run it, print what it measures beside theory, and keep log.NAME; NAME: sound, column, channel, colloid, or flow")
     parser.add_argument("--plot", action="store_true", help="... and draw what is measured beside theory: NAME.png")
     parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp", help="LAMMPS that is timed (default: build/lmp)")
     args = parser.parse_args(argv)
@@ -920,13 +963,13 @@ def printed(args):
 
 
 def run(text, plan):
-    """writes the input in the working folder, runs it, and draws its figure"""
+    """writes the input in the working folder, runs it, prints what it measures, and draws its figure"""
     name, lmp = plan.name, plan.args.lmp
     if not lmp.exists():
         raise SystemExit(f"plan: --run needs LAMMPS, and there is none at {lmp}; ./sphd build makes it")
-    if plan.args.plot:
-        from . import pyplot, save, thermo
-        plt = pyplot()    # what is missing is missed before the run
+    from . import pyplot, save, thermo
+    importlib.import_module("numpy")    # what is missing is missed before the run
+    plt = pyplot() if plan.args.plot else None
     file = Path(f"in.{name}")
     if file.exists() and file.read_text(encoding="utf-8").split("\n\n", 1)[1:] != text.split("\n\n", 1)[1:]:
         raise SystemExit(f"plan: {file} is there already and is another input; rename it")
@@ -934,9 +977,11 @@ def run(text, plan):
     print(text.partition("\n\n")[0], flush=True)
     if subprocess.run([str(lmp.resolve()), "-in", str(file), "-log", f"log.{name}", "-nocite"], stdin=subprocess.DEVNULL, check=False).returncode:
         raise SystemExit(f"plan: LAMMPS has stopped with an error; the input is {file}")
+    (table,) = thermo(Path(f"log.{name}").read_text(encoding="utf-8", errors="replace"))
+    for line in plan.measured(table):
+        print(f"plan: {line}")
     written = [str(file), f"log.{name}", f"{name}.dump"]
     if plan.args.plot:
-        (table,) = thermo(Path(f"log.{name}").read_text(encoding="utf-8", errors="replace"))
         written.append(str(save(plan.figure(plt, table), f"{name}.png")))
     print(f"plan: wrote {', '.join(written)}")
 

@@ -37,13 +37,13 @@ std::string CoeffTable::text(double dt) const
   if (contact < UNLIMITED_STEP)
     result += fmt::format("  largest stable time step of the contact of bodies: {:.4g}\n", contact);
   result += fmt::format(
-      "  stable is not accurate: for the energy within 1 % take {:g}, within 0.1 % {:g} "
-      "of the largest stable time step\n",
+      "  a stable time step need not be accurate: {:g} of the largest one keeps the energy within "
+      "1 %, {:g} within 0.1 %\n",
       ONE_PERCENT_STEP, TENTH_PERCENT_STEP);
   if (!(std::min(viscous, heat) < UNLIMITED_STEP)) return result;
   const auto stages_for = [](double rate) {
     const double stages = RKL2::stages_for(rate);
-    return (stages <= RKL2::MOST) ? fmt::format("takes {:.0f} stages", stages)
+    return (stages <= RKL2::MOST) ? fmt::format("would take {:.0f} stages", stages)
                                   : std::string("cannot be used");
   };
   const double rate = fastest_rate() * dt, of_heat = fastest_heat_rate() * dt;

@@ -112,6 +112,27 @@ def test_wrong_arguments_of_a_script(machine, args):
     assert status == 2 and re.search(r"^\S.*: error: ", output, re.MULTILINE) and "configuring" not in output and not options, output
 
 
+@pytest.mark.parametrize("version, packages, more, source, message", [
+    ("4 Jul 2026", "PLUGIN SPH", "", "", ""), ("22 Jul 2025 - Update 2", "PLUGIN KSPACE", "-DLAMMPS_BIGBIG\nFFT precision  = single", "/lammps", ""),
+    ("4 Jul 2026", "SPH", "", "", "has not LAMMPS's package PLUGIN"), ("22 Jul 2025 - Update 2", "PLUGIN", "", "", "is LAMMPS 22 Jul 2025: name its source tree"),
+    ("4 Jul 2026", "PLUGIN SPH-DISSIPATION", "", "", None)])
+def test_plugin_for_an_installed_lammps(machine, tmp_path, version, packages, more, source, message):
+    """... is built alone, in the way of that LAMMPS; nothing is built for one that has the package."""
+    help = f"Large-scale Atomic/Molecular Massively Parallel Simulator - {version}\n{more}\nInstalled packages:\n\n{packages}\n\nList of"
+    write(tmp_path / "bin", {"lmp": f"cat <<'TEXT'\n{help}\nTEXT"})
+    write(tmp_path / "tools", {**TOOLS, "cmake": 'echo "$@" >>"$RECORD/cmake"; case "$*" in *ObtainLAMMPS*) echo /obtained ;; *) exit 1 ;; esac'})
+    write(tmp_path / "bin", {"python": "exit 0"})
+    variables = {"SPHD_LMP": "lmp", "SPHD_PYTHON": "python", "SPHD_MPIEXEC": "mpiexec", **({"LAMMPS_SOURCE_DIR": source} if source else {})}
+    status, output, installed, options = machine("run", "sound_pulse", **variables)
+    assert status == (message is not None) and (message or "") in output, output
+    if message == "":
+        assert "configuring failed" in output and "libopenmpi-dev" in installed and "libgtest-dev" not in installed
+        assert "/plugin -B " in options and f"LAMMPS_SOURCE_DIR={source or '/obtained'}" in options
+        assert [word in options for word in ("PKG_KSPACE=ON", "FFT_SINGLE=ON", "LAMMPS_SIZES=bigbig")] == [bool(source)] * 3
+    else:
+        assert not options and (not installed or message)
+
+
 def test_modules_of_the_working_folder(machine, tmp_path, monkeypatch):
     """A file numpy.py there is no numpy."""
     monkeypatch.chdir(tmp_path)

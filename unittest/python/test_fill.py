@@ -120,7 +120,7 @@ def test_shells():
 
 def test_the_input_of_the_page(lammps):
     """What the command writes is a body in a fluid: the ball sinks, and its velocity becomes steady."""
-    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "ball.data" in text)
+    (text,) = (text for _, _, text, _ in blocks(ROOT / "doc" / "src" / "Howto_sph_bodies.rst") if "ball.data" in text and "vessel" not in text)
     write_binary(lammps.path("ball.stl"), sphere(220.0))
     fill.main([str(lammps.path("ball.stl")), "0.1", *"--scale 0.001 --move 0.5 0.5 0.5 --inside 2 --density 2.0 --out".split(),
                str(lammps.path("ball.data"))])
@@ -130,6 +130,21 @@ def test_the_input_of_the_page(lammps):
     assert table["v_M"][0] == pytest.approx(0.002 * len(within), rel=1e-12)
     assert np.abs(table["v_p"]).max() < 1e-12 and -1.0 < table["v_w"][-1] < -0.05
     assert abs(table["v_w"][-1] - table["v_w"][-2]) < 0.2 * abs(table["v_w"][-1])
+
+
+def test_the_vessel_of_the_page(lammps, monkeypatch):
+    """A ball floats in an open vessel: its center at the level, and the vessel carries the weight of both."""
+    page = ROOT / "doc" / "src" / "Howto_sph_bodies.rst"
+    (text,) = (text for _, _, text, _ in blocks(page) if "vessel.data" in text)
+    monkeypatch.chdir(lammps.path("."))
+    write_binary(lammps.path("vessel.stl"), cube()[:-2])
+    write_binary(lammps.path("ball.stl"), sphere(220.0))
+    for words in re.findall(r"sphd fill (vessel.stl .* --level .*|ball.stl .* --inside 3 .*)", page.read_text()):
+        fill.main(words.split())
+    result = lammps(text.replace("run             2000", "run             1000"))
+    (table,) = result.thermo()
+    assert not result.warnings and np.abs(table["v_z"] - 0.7).max() < 0.01
+    assert table["v_down"][1:] == pytest.approx(-1.0, abs=0.01)
 
 
 @pytest.mark.parametrize("words, message", [
@@ -162,6 +177,45 @@ def test_corners_that_rounding_has_moved(tmp_path):
     # fine meshes are left as they are
     points = random.uniform(size=(20000, 3, 3))
     assert (fill.weld(points) == points).all()
+    # corners that are farther apart: the message has the distance to be given
+    write_text(tmp_path / "cube.stl", cube() + random.uniform(-1e-3, 1e-3, (12, 3, 3)))
+    with pytest.raises(SystemExit, match="is not closed: 36 edges .*; --weld 0.00[1-9] joins their corners, which are at most 0.00[12]") as error:
+        fill.main([str(tmp_path / "cube.stl"), "0.1", "--out", str(tmp_path / "cube.data")])
+    words = re.search(r"--weld \S+", str(error.value))[0].split()
+    fill.main([str(tmp_path / "cube.stl"), "0.1", *words, "--out", str(tmp_path / "cube.data")])
+    assert "\n1000 atoms\n" in (tmp_path / "cube.data").read_text()
+
+
+def test_vessel_filled_to_a_level(tmp_path, capsys):
+    """An open vessel has fluid below the level and a wall around it, none in its opening; below the level it must have no hole."""
+    path, open_top = tmp_path / "vessel.stl", cube()[:-2]
+    for shape, closed in ((open_top, False), (open_top[:, ::-1], False), (cube(), True)):
+        write_text(path, shape)
+        fill.main([str(path), "0.1", *"--level 0.5 --outside 2 --thickness 0.34 --out".split(), str(tmp_path / "vessel.data")])
+        x = np.loadtxt(tmp_path / "vessel.data", skiprows=10)
+        assert "filled up to z = 0.5 by a volume of 0.5\n" in capsys.readouterr().out
+        water, wall = x[x[:, 1] == 1][:, 4:], x[x[:, 1] == 2][:, 4:]
+        assert len(water) == 500 and water.min() > 0 and water[:, 2].max() < 0.5
+        over = (np.abs(wall[:, :2] - 0.5) < 0.5).all(axis=1) & (wall[:, 2] > 0)    # inside of the vessel, in its opening
+        assert over.any() == closed and wall[over][:, 2].min(initial=2.0) > 1.0
+        assert (wall[:, 2] < -0.2).any() and (wall[:, 0] < -0.2).any()
+    # a round vessel that gets narrower to the top, cut open: the part of a sphere below the level
+    ball = sphere()
+    grid = np.linspace(-0.95, 0.95, 39)
+    cut = ball[ball[:, :, 2].min(axis=1) < 0.8]
+    radius = np.linalg.norm(np.stack(np.meshgrid(grid, grid, grid, indexing="ij")), axis=0)
+    which, low = fill.inside(cut, [grid] * 3), grid < 0.7
+    assert len(fill.open_edges(cut)) and which[:, :, low][radius[:, :, low] < 0.99].all() and not which[:, :, low][radius[:, :, low] > 1].any()
+    for shape, words, message in (
+            (open_top, "", r"is not closed: 4 edges .*: 4 around \(0.5 0.5 1\), 1 wide; --level fills an open vessel$"),
+            (open_top, "--level 1.01", r"is not closed below the level: 4 edges .* \(0.5 0.5 1\), 1 wide$"),
+            (open_top[1:], "--level 0.5", r"below the level: 2 edges .*: 2 around \(0 0.75 0.5\), 1 wide$"),
+            (open_top, "--level -1", "has no room for particles .* below the level"),
+            (open_top, "--level nan", "must be a finite number")):
+        write_text(path, shape)
+        with pytest.raises(SystemExit) as error:
+            fill.main([str(path), "0.1", *words.split(), "--out", str(tmp_path / "none.data")])
+        assert re.search(message, str(error.value) + capsys.readouterr().err) and "\n" not in str(error.value)
 
 
 def test_data_far_from_the_origin(tmp_path):
@@ -175,9 +229,9 @@ def test_data_far_from_the_origin(tmp_path):
 def test_files_that_are_no_closed_surface(tmp_path):
     path = tmp_path / "shape.stl"
     whole = cube()
-    for make, message in ((lambda: write_text(path, whole[1:]), r"is not closed: 3 edges have .*, the first ones at \(0 0.5 0.5\), \(0 1 0.5\), \(0 0.5 1\)$"),
-                          (lambda: write_text(path, np.concatenate([whole, cube(1.0, (5, 6, 7))[:11]])), r"3 edges .* at \(5 6.5 8\), "),
-                          (lambda: write_text(path, np.concatenate([whole, 1e-5 * whole[1:]])), "is not closed: 3 edges"),    # a small hole
+    for make, message in ((lambda: write_text(path, whole[1:]), r"is not closed: 3 edges have .*: 3 around \(0 0.666667 0.666667\), 1 wide; --level fills an open vessel$"),
+                          (lambda: write_text(path, np.concatenate([whole, cube(1.0, (5, 6, 7))[:11]])), r"3 edges .*: 3 around \(\S+ \S+ 8\), 1 wide"),
+                          (lambda: write_text(path, np.concatenate([whole[1:], 3.0 + 1e-5 * whole[1:]])), "6 edges .*: 3 around .* 1 wide; 3 around .*, 1e-05 wide"),
                           (lambda: path.write_text("solid\n"), "is no STL file"), (lambda: path.write_text("ply\n"), "is no STL file"),
                           (lambda: path.write_text(""), "is no STL file"), (lambda: path.write_bytes(bytes(range(256)) * 9), "is no STL file"),
                           (lambda: write_binary(path, whole) or path.write_bytes(path.read_bytes()[:-1]), "is no STL file, or a part of one"),

@@ -451,3 +451,10 @@ def test_kappa_of_a_file_is_that_of_three_dimensions(box):
     missing = box("units si\natom_style sph/bulk\nregion box block 0 1 0 1 0 1\ncreate_box 1 box\npair_style sph/bulk\n"
                   + f"pair_coeff * * {FLUIDS} water\n", check=False)
     assert missing.code and "water: a fluid of a file needs the support radius rc behind its name" in missing.error
+
+
+def test_copy_without_the_files(monkeypatch, tmp_path):
+    """... says what to do."""
+    monkeypatch.setattr(tool, "POTENTIALS", tmp_path / "potentials")
+    with pytest.raises(FileNotFoundError, match="copy with cp -rL, or install with pip"):
+        tool.find("water")

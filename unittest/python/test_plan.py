@@ -93,7 +93,10 @@ def test_column(lammps, case):
 @pytest.mark.parametrize("particles, error", [(15, 0.12), pytest.param(24, 0.1, marks=pytest.mark.long)])
 def test_forces_of_a_dam_break(lammps, particles, error):
     """The force on the far wall and that of the pressure in the water next to it agree, once the wall is wet."""
-    (table,) = lammps(planner.Column(planner.arguments(f"--rho 1 --mu 1e-6 --column 1 --particles {particles}".split())).input()).thermo()
+    plan = planner.Column(planner.arguments(f"--rho 1 --mu 1e-6 --column 1 --particles {particles}".split()))
+    (table,) = lammps(plan.input()).thermo()
+    time, force = plan.measured(table)
+    assert 2.0 < float(re.search(r"at the far wall at (\S+);", time)[1]) < 3.5 and "by the pressure in the water" in force
     wet = table["Time"] > 4.0
     assert table["c_push"][wet].mean() == pytest.approx(table["c_mean"][wet].mean(), rel=error)
     assert table["c_mean"][wet].mean() > 0.1 and not table["c_push"][table["Time"] < 1.5].any()
@@ -111,6 +114,7 @@ def test_channel(lammps, case, error):
     assert not result.warnings, result.warnings
     assert f"Created {plan.number} atoms" in result.log and table(result.log)["shear"] == pytest.approx(plan.limits["shear"], rel=5e-4)
     (columns,) = result.thermo()
+    assert plan.measured(columns)[0].startswith("mean velocity ") and abs(float(re.search(r": (\S+) %", plan.measured(columns)[0])[1])) < 101 * error    # two digits
     assert columns["v_mean"][0] == 0.0 and columns["v_mean"][-1] == pytest.approx(columns["v_theory"][-1], rel=error)
     assert columns["v_stress"][-20:].mean() == pytest.approx(columns["v_balance"][-1], rel=0.005)
     y = np.linspace(-1, 1, 20001)
@@ -145,6 +149,8 @@ def test_colloid(lammps, case, steps):
     if not steps:
         (columns,) = result.thermo()
         assert columns["f_K"][-1] == pytest.approx(columns["v_theory"][-1], rel=0.1)
+        (line,) = plan.measured(columns)
+        assert line.startswith("kinetic energy") and line.endswith("a statistical error of about 8 %")
 
 
 FIRST = {"colloid": COLLOID, "sound": "--fluid CO2 --frequency 30e3", "column": "--fluid water --column 0.6 --tank 3.22", "channel": "--rho 1 --mu 0.1 --channel 1 --velocity 1 --yield 0.2",
@@ -161,10 +167,11 @@ def test_first_inputs_are_short(name):
 
 def test_run_and_plot(tmp_path):
     """... write input, log, dump, and figure, and do not replace another input."""
-    command = [str(ROOT / "sphd"), "plan", *"--rho 1 --mu 0.01 --kappa 0.1 --wavelength 2 --c 5 --particles 14 --time 0.5 --plot --lmp".split(), LMP]
+    command = [str(ROOT / "sphd"), "plan", *"--rho 1 --mu 0.01 --kappa 0.1 --wavelength 2 --c 5 --particles 14 --time 1.2 --plot --lmp".split(), LMP]
     for _ in range(2):
         done = subprocess.run(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
         assert done.returncode == 0 and done.stdout.endswith("plan: wrote in.sound, log.sound, sound.dump, sound.png\n"), done.stderr
+        assert re.search(r"^plan: frequency 2.\d+, theory 2.499: \S+ %\nplan: rate of decay ", done.stdout, re.MULTILINE)
     assert (tmp_path / "sound.png").read_bytes()[:4] == b"\x89PNG" and "v_theory" in (tmp_path / "log.sound").read_text()
     done = subprocess.run([*command, "--velocity", "0.1"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 1 and "in.sound is there already" in done.stderr
@@ -223,6 +230,10 @@ def test_wave_lasts(lammps):
     """With all defaults the wave decays as it is printed, to the end: the lattice under the background pressure holds."""
     plan = planner.Plan(planner.arguments("--fluid CO2 --frequency 30e3".split()))
     (table,) = lammps(plan.input()).thermo()
+    # what is measured differs from theory by the errors that the header has
+    header = re.search(r"errors +frequency (\S+) %, decay (\S+) %", plan.input()).groups()
+    for line, what, error in zip(plan.measured(table), (r"frequency 2.99\de.04, theory", "rate of decay 39.., theory"), header):
+        assert re.match(what, line) and float(re.search(r": (\S+) %", line)[1]) == pytest.approx(float(error), rel=0.15)
     decay = np.exp(plan.fluid.standing_wave(plan.args.length).real * table["Time"])
     assert table["Time"][-1] * 30e3 > 10 and np.abs(table["c_amplitude"] / plan.args.velocity / decay).max() < 1.1
 
