@@ -387,6 +387,7 @@ namespace SPHDissipation {
     double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
+    const double *heat() const { return of<HeatChannel>(); }
   };
 
   // A pair of types with its coefficients from pair_coeff for all channels

@@ -374,7 +374,7 @@ void Fluid::list_stages()
     add_wall_volumes(walls && !noisy);
     add(par.by_rate && rates, "shear rates", VOLUMES, VISCOSITIES,
         call(*this, &Fluid::find_viscosities));
-    add(par.by_rate && !rates, "kept rates", VOLUMES, VISCOSITIES,
+    add(par.by_rate && !rates && !stiff, "kept rates", VOLUMES, VISCOSITIES,
         call(*viscosity, &ViscosityStage::keep, all_bits));
     add(true, "pressures", VOLUMES, PRESSURES, [this, bits](StepData &step) {
       step.nbeyond = pressure->run(bound(), bits);
@@ -426,7 +426,7 @@ void Fluid::list_stages()
     add(true, "restored", NOTHING, NOTHING, call(*temperature, &StiffStage::restore));
   }
   trial = false;
-  add_passes(!viscous->active());    // else the rates of shear are those of the guess
+  add_passes(!viscous->active());    // else the viscosities are those of the guess
   add_temperatures(stiff_heat && !par.thermal_pressure);    // no force depends on heat
   add(par.loops_of_flows, "flows", SLOPES | FORCES, FORCES, [this](StepData &) {
     flows->run([this](std::vector<double> &heat) {
@@ -794,7 +794,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
       const double temperature = value(i);
       desph_before[i] = 0.0;
       if (in_zone) {    // the density of the zone is not known yet
-        atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;
+        atom->esph[i] = atom->rmass[i] * engine->parameters().type[type].heat(temperature);
         continue;
       }
       states.begin(i, temperature);

@@ -300,6 +300,11 @@ void FluidModel::check_keywords(int i) const
   if (keyword && heat_capacity(i) == 0.0)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword, i);
+  if (par->type[i].keywords.rheology()[Rheology::SOLID_FACTOR] > 0.0 &&
+      !keyword_that_needs(MELTS, i))
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair_coeff solid of type {} needs melt, the range of temperatures where it melts",
+               i);
   keyword = keyword_that_needs((choice.eos == Eos::IDEAL) ? NOT_EOS_IDEAL : EOS_IDEAL, i);
   if (keyword)
     error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {} of type {} cannot be used with eos {}",
@@ -366,7 +371,7 @@ bool FluidModel::is_alike(int i, int j) const
   return coeffs[i].viscosity[MU] == coeffs[j].viscosity[MU] &&
       std::all_of(keywords.begin(), keywords.end(), [&](const TypeKeyword &one) {
            const auto first = a.begin() + one.first;
-           return !(one.needs & RHEOLOGY) ||
+           return !(one.needs & (RHEOLOGY | MELTS)) ||
                std::equal(first, first + one.count, b.begin() + one.first);
          });
 }
@@ -430,6 +435,16 @@ bool FluidModel::is_of_pair_energy(const char *name) const
 }
 
 /* ---------------------------------------------------------------------- */
+
+double FluidModel::temperature(int type, double q) const
+{
+  return (heat_capacity(type) > 0.0) ? par->type[type].temperature(q) : 0.0;
+}
+
+double FluidModel::heat(int type, double T) const
+{
+  return par->type[type].heat(T);
+}
 
 bool FluidModel::has_temperatures() const
 {

@@ -266,8 +266,7 @@ OpenState OpenCondition::own_state(int i, Side side) const
 double OpenCondition::temperature(int i, const OpenState &state) const
 {
   if (values.given(OpenValues::TEMPERATURE)) return values(OpenValues::TEMPERATURE, i);
-  const double cv = fluid->heat_capacity(atom->type[i]);
-  return (cv > 0.0) ? state.q / cv : 0.0;
+  return fluid->temperature(atom->type[i], state.q);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -312,7 +311,7 @@ OpenCondition::Reference OpenCondition::reference(int i, Side side) const
   if (gets)
     ref.q = values.given(OpenValues::ENERGY)
         ? values(OpenValues::ENERGY, i)
-        : fluid->heat_capacity(atom->type[i]) * values(OpenValues::TEMPERATURE, i);
+        : fluid->heat(atom->type[i], values(OpenValues::TEMPERATURE, i));
   ref.at_heat = gets || (side == ZONE && (is_new || !(density_of_energy(i) > 0.0)));
 
   if (values.given(OpenValues::RHO)) {

@@ -35,6 +35,21 @@ namespace SPHDissipation {
     TypeCoeffs keywords;                // of the channels
     int other = 1;                      // 1: the type belongs to another style of pair_style hybrid
     States::Numbers states;             // for the time step
+
+    // Return the temperature at a heat per mass, and its inverse, with a heat capacity; return the solid fraction
+    bool melts() const { return keywords.heat()[HeatChannel::SOLIDUS] != 0.0; }
+    SPH_FUNCTION double temperature(double q) const
+    {
+      return HeatChannel::temperature(keywords.heat(), heat_capacity, q);
+    }
+    SPH_FUNCTION double heat(double T) const
+    {
+      return HeatChannel::heat(keywords.heat(), heat_capacity, T);
+    }
+    SPH_FUNCTION double solid_fraction(double T) const
+    {
+      return HeatChannel::solid_fraction(keywords.heat(), T);
+    }
   };
 
   // Settings and coefficients of the fluid and what follows from them, for one run or until a coefficient changes.

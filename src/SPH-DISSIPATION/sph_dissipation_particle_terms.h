@@ -130,8 +130,8 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the rate of the temperature at constant states: from the rate of the internal energy, less the work of the
-    // elastic pressure and of the states
+    // Return the rate of the temperature at constant states and heat capacity: from the rate of the internal energy, less the
+    // work of the elastic pressure and of the states
 
     SPH_FUNCTION double temperature_rate(int i) const
     {
@@ -153,14 +153,13 @@ namespace SPHDissipation {
 
     SPH_FUNCTION double temperature(int i) const
     {
-      const double cv = types[type[i]].heat_capacity;
-      return (cv > 0.0) ? thermal_energy(i) / (rmass[i] * cv) : 0.0;
+      const TypeParameters &par = types[type[i]];
+      return (par.heat_capacity > 0.0) ? par.temperature(thermal_energy(i) / rmass[i]) : 0.0;
     }
     SPH_FUNCTION double energy_at(int i, double temperature) const
     {
       const TypeParameters &par = types[type[i]];
-      return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat_capacity * temperature) +
-          held(i);
+      return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat(temperature)) + held(i);
     }
   };
 
@@ -285,9 +284,10 @@ namespace SPHDissipation {
     void set_viscosity(int i, double rate, int not_fluid) const
     {
       const TypeParameters &own = types[type[i]];
+      const double T = states.temperature(i);
       viscosity[i] = is_fluid(i, not_fluid)
           ? Rheology::viscosity(own.keywords.rheology(), own.mu + states.viscosity(i), rho[i], rate,
-                                states.temperature(i))
+                                T, own.solid_fraction(T))
           : -1.0;
     }
 

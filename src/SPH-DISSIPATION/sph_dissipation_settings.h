@@ -125,7 +125,7 @@ namespace SPHDissipation {
     NO_OPEN_ENDS = 16,
     TENSION = 32,
     RHEOLOGY = 64,             // mu that may not be constant, see FluidModel::check_rheology()
-    THERMAL_FRICTION = 128,    // the friction depends on temperatures
+    MELTS = 128,               // the heat capacity depends on the temperature
     NO_RERUN = 256             // forces depend on a state that snapshots do not have
   };
 
