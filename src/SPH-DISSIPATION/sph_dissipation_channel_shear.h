@@ -36,8 +36,8 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
 
 // AlongR or, with FR2, AlongRBySquare, with a mean of mu of both particles: within a fluid, the arithmetic mean, which has a
-// dissipation function; between two fluids, the harmonic mean; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: no
-// pair has two fluids
+// dissipation function; between two fluids, and with solid, the harmonic mean, with which a solid does not hold the fluid
+// within the support; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: all pairs have the arithmetic mean
 template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;

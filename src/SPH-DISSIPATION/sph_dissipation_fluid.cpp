@@ -374,8 +374,8 @@ void Fluid::list_stages()
     add_wall_volumes(walls && !noisy);
     add(par.by_rate && rates, "shear rates", VOLUMES, VISCOSITIES,
         call(*this, &Fluid::find_viscosities));
-    add(par.by_rate && !rates && !stiff, "kept rates", VOLUMES, VISCOSITIES,
-        call(*viscosity, &ViscosityStage::keep, all_bits));
+    add(par.by_rate && !rates && !stiff, "kept viscosities", VOLUMES, VISCOSITIES,
+        call(*viscosity, &ViscosityStage::keep));
     add(true, "pressures", VOLUMES, PRESSURES, [this, bits](StepData &step) {
       step.nbeyond = pressure->run(bound(), bits);
     });

@@ -38,6 +38,7 @@ namespace SPHDissipation {
 
     // Return the temperature at a heat per mass, and its inverse, with a heat capacity; return the solid fraction
     bool melts() const { return keywords.heat()[HeatChannel::SOLIDUS] != 0.0; }
+    bool has_solid() const { return keywords.rheology()[Rheology::SOLID_FACTOR] != 0.0; }
     SPH_FUNCTION double temperature(double q) const
     {
       return HeatChannel::temperature(keywords.heat(), heat_capacity, q);
@@ -81,7 +82,9 @@ namespace SPHDissipation {
           if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
           if (a != 0.0) inviscid = false;
         }
-    for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // the noise has the flow of heat
+    for (const TypeParameters &one : type)
+    if (one.has_solid()) uniform = false;                   // harmonic means within a fluid
+  for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // the noise has the flow of heat
       if (type[i].flow[HEAT_FLOW] != type[1].flow[HEAT_FLOW]) uniform = false;
   }
 

@@ -157,7 +157,7 @@ namespace SPHDissipation {
     Shear shear;
     bool optional;
     bool by_rate;      // mu is not constant
-    bool one_fluid;    // all pairs have the same coefficients; read with by_rate
+    bool one_fluid;    // all pairs have the same coefficients, and the arithmetic mean; read with by_rate
   };
 
   // Columns of a row of sums over pairs: with spins the torque (3 numbers), then the heat of each channel with a bit, but

@@ -139,6 +139,7 @@ void ViscosityStage::run(int not_fluid)
   exchange.reverse({{rates.data(), 1, 1}});
   const ParticleRows &rows = engine.rows();
   double *const shear_rate = Fields::of(atom)->shear_rate;
+  double *const viscosity = Fields::of(atom)->shear_mu;
   engine.for_each(atom->nlocal, [&](int i) {
     const DensitySum &density = engine.density[i];
     shear_rate[i] = rows.is_fluid(i, not_fluid)
@@ -146,17 +147,16 @@ void ViscosityStage::run(int not_fluid)
                                            density.cdot / density.c),
                         0.0))
         : 0.0;
+    rows.set_viscosity(i, shear_rate[i], not_fluid);
+    viscosity[i] = engine.viscosity[i];
   });
-  keep(not_fluid);
+  exchange.forward({{engine.viscosity.data(), 1, 1}});
 }
 
-void ViscosityStage::keep(int not_fluid)
+void ViscosityStage::keep()
 {
-  const ParticleRows &rows = engine.rows();
-  const double *const shear_rate = Fields::of(atom)->shear_rate;
-  engine.for_each(atom->nlocal, [&](int i) {
-    rows.set_viscosity(i, shear_rate[i], not_fluid);
-  });
+  const double *const kept = Fields::of(atom)->shear_mu;
+  std::copy_n(kept, atom->nlocal, engine.viscosity.begin());
   exchange.forward({{engine.viscosity.data(), 1, 1}});
 }
 

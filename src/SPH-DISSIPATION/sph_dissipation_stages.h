@@ -98,10 +98,10 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep these rates.  keep():
-    // set viscosities from the kept rates
+    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep both.  keep(): set the
+    // kept viscosities
     void run(int not_fluid);
-    void keep(int not_fluid);
+    void keep();
 
     double memory_usage() const override { return bytes(rates); }
 

@@ -26,7 +26,7 @@ def solid(T, solidus=SOLIDUS, liquidus=LIQUIDUS):
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_temperature_and_viscosity(lammps, ranks):
-    """Each particle has the temperature of its heat and the viscosity of its solid fraction; two melts are two fluids."""
+    """Each particle has the temperature of its heat and the viscosity of its solid fraction; all pairs have the harmonic mean."""
     particles = disordered(2, 12, ntypes=2)
     particles.esph = particles.mass * np.random.default_rng(3).uniform(1.0, 8.0, len(particles))
     particles.write(lammps.path("box.data"))
@@ -42,7 +42,7 @@ def test_temperature_and_viscosity(lammps, ranks):
     s = np.where(one, solid(T), solid(T, 1.0, 1.3))
     assert min((s == 0).sum(), (s == 1).sum(), ((s > 0) & (s < 1)).sum()) > 20
     assert np.abs(frame["c_T"] - T).max() < 1e-12
-    force, _, _ = found.forces(particles.v, lambda g, rho: MU * 1e3**s, like=one[:, None] == one[None])
+    force, _, _ = found.forces(particles.v, lambda g, rho: MU * 1e3**s, like=np.zeros(2 * (len(s),), bool), zeta=KAPPA - 2 * MU)
     assert relative(frame["f"] - force, force) < 1e-11
 
 
@@ -132,3 +132,29 @@ def test_conservation(lammps, ranks):
     print(crossed, momentum, drift, table["f_FLUID[1]"].max(), table["KinEng"])
     assert min(crossed) > 10 and table["f_FLUID[1]"].max() > 30
     assert max(momentum) < 1e-13 and drift < 1e-13
+
+
+# ---- bad input ---------------------------------------------------------------------------------------------------
+
+COEFF = f"pair_coeff * * 1 10 0.5 2 {SUPPORT[2]} "
+
+
+@pytest.mark.parametrize("model, words, integrator", [
+    (f"pair_style sph/bulk\n{COEFF}melt 1 2 3", "heat capacity", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 melt 0 2 3", "melt must have 0 < T_s < T_l and L >= 0", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 melt 2 2 3", "melt must have 0 < T_s < T_l", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 melt 1 2 -3", "melt must have 0 < T_s < T_l", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 melt 1 2 3 gruneisen 0.1 1", "melt and gruneisen must not be given together", ""),
+    (f"pair_style sph/bulk eos ideal\n{COEFF}cv 1 melt 1 2 3", "melt of type 1 cannot be used with eos ideal", ""),
+    (f"pair_style sph/bulk temp 1 4711\n{COEFF}cv 1 melt 1 2 3", "temp cannot be used with melt", ""),
+    (f"pair_style sph/bulk temp energy 100 4711\n{COEFF}cv 1 melt 1 2 3", "temp cannot be used with melt", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 solid 10", "solid of type 1 needs melt", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 melt 1 2 3 solid 0.5", "solid must be >= 1", ""),
+    (f"pair_style sph/bulk\n{COEFF.replace('0.5 2', '0.5 0.9')}cv 1 melt 1 2 3 solid 10", "solid of type 1 needs kappa >= 1", ""),
+    (f"pair_style sph/bulk shear morris\n{COEFF}cv 1 melt 1 2 3 solid 10", "requires pair style sph/bulk with shear mg", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 melt 1 2 3", "viscous implicit cannot be used with melt of pair_coeff", "viscous implicit"),
+])
+def test_errors(lammps, model, words, integrator):
+    disordered(2, 12).write(lammps.path("box.data"))
+    result = lammps(header(2) + f"read_data box.data\n{model}\nfix FLUID all sph/bulk {integrator}\nrun 0\n", check=False)
+    assert result.code and words in result.error.replace("\n", " "), result.output[-1500:]
