@@ -481,7 +481,7 @@ void Fluid::finish()
 
 void Fluid::find_viscosities()
 {
-  if (boundary->empty()) return viscosity->run(not_fluid());
+  if (boundary->empty()) return viscosity->run(0);
   const int nall = atom->nlocal + atom->nghost;
   Particle *const particle = engine->particle;
   engine->for_each(nall, [&](int i) {
@@ -489,7 +489,7 @@ void Fluid::find_viscosities()
   });
   boundary->run(neighbors());
   boundary->set_squares();
-  viscosity->run(not_fluid());
+  viscosity->run(boundary->bits());
   const bool moves = update->whichflag != 2;
   engine->for_each(nall, [&](int i) {
     if (!is_boundary(i)) return;

@@ -189,6 +189,7 @@ void OpenCondition::init(const FluidModel &fluid_in)
   fields = Fields::of(atom);
   const Constants &par = fluid->constants();
   warm = par.thermal_pressure || par.conducts() || values.given(OpenValues::TEMPERATURE);
+  for (int i = 1; i < par.ntypes_1; i++) warm = warm || fluid_in.heat_acts(i);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -133,7 +133,7 @@ void LimitStage::run()
 
 /* ---------------------------------------------------------------------- */
 
-void ViscosityStage::run(int not_fluid)
+void ViscosityStage::run(int walls)
 {
   engine.accumulate_shear_rates(rates);
   exchange.reverse({{rates.data(), 1, 1}});
@@ -142,12 +142,12 @@ void ViscosityStage::run(int not_fluid)
   double *const viscosity = Fields::of(atom)->shear_mu;
   engine.for_each(atom->nlocal, [&](int i) {
     const DensitySum &density = engine.density[i];
-    shear_rate[i] = rows.is_fluid(i, not_fluid)
+    shear_rate[i] = rows.is_fluid(i, walls)
         ? sqrt(std::max(shear_rate_squared(rows.par.dim, rows.par.rate_factor, rates[i],
                                            density.cdot / density.c),
                         0.0))
         : 0.0;
-    rows.set_viscosity(i, shear_rate[i], not_fluid);
+    rows.set_viscosity(i, shear_rate[i], walls);
     viscosity[i] = engine.viscosity[i];
   });
   exchange.forward({{engine.viscosity.data(), 1, 1}});

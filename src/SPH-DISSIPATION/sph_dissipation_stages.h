@@ -98,9 +98,9 @@ namespace SPHDissipation {
    public:
     using Stage::Stage;
 
-    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep both.  keep(): set the
-    // kept viscosities
-    void run(int not_fluid);
+    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep both.  Particles of open
+    // zones have them as fluid has; walls, their bits, have none.  keep(): set the kept viscosities
+    void run(int walls);
     void keep();
 
     double memory_usage() const override { return bytes(rates); }
