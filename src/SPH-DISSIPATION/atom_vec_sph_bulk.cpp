@@ -80,8 +80,8 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   // with density continuity from rho and rho_sum of the last step; restart files have vest and desph_before of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
-  const std::vector<std::string> kept = {
-      "rho_sum", "vol_rate", "vol_rate_before", "vol_heat", "vol_support", "shear_rate", "shear_mu", "trace"};
+  const std::vector<std::string> kept = {"rho_sum",     "vol_rate",   "vol_rate_before", "vol_heat",
+                                         "vol_support", "shear_rate", "shear_mu",        "trace"};
   fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};

@@ -263,11 +263,12 @@ void FixSPHOpen::warn_of_cold_zone()
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all[1] && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix {} {}: {} of {} particles of the zone have no heat, though heat is "
-                   "conducted or acts on pressure or viscosity; use keyword temperature of this fix or of "
-                   "that of the fluid",
-                   style, id, all[1], all[0]);
+    error->warning(
+        FLERR,
+        "Fix {} {}: {} of {} particles of the zone have no heat, though heat is "
+        "conducted or acts on pressure or viscosity; use keyword temperature of this fix or of "
+        "that of the fluid",
+        style, id, all[1], all[0]);
 }
 
 /* ----------------------------------------------------------------------

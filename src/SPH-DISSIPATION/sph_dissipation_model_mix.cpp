@@ -300,14 +300,17 @@ void FluidModel::check_keywords(int i) const
   if (keyword && heat_capacity(i) == 0.0)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword, i);
-  if (par->type[i].has_solid() && !par->type[i].melts())
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair_coeff solid of type {} needs melt, the range of temperatures where it melts",
-               i);
+  if (par->type[i].has_solid() && !par->type[i].keywords.melts())
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_coeff solid of type {} requires melt, which gives the range of temperatures; use "
+        "melt",
+        i);
   if (par->type[i].has_solid() && par->type[i].zeta < -1e-12 * intrinsic_kappa(i, i))
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair_coeff solid of type {} needs kappa >= {}, that of its shear term, not {}", i,
-               intrinsic_kappa(i, i), coeffs[i].kappa);
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_coeff kappa must be >= {} with solid, that of its shear term, not {} for type {}",
+        intrinsic_kappa(i, i), coeffs[i].kappa, i);
   keyword = keyword_that_needs((choice.eos == Eos::IDEAL) ? NOT_EOS_IDEAL : EOS_IDEAL, i);
   if (keyword)
     error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {} of type {} cannot be used with eos {}",

@@ -287,7 +287,7 @@ namespace SPHDissipation {
       const double T = states.temperature(i);
       viscosity[i] = is_fluid(i, not_fluid)
           ? Rheology::viscosity(own.keywords.rheology(), own.mu + states.viscosity(i), rho[i], rate,
-                                T, own.solid_fraction(T))
+                                T, own.keywords.solid_fraction(T))
           : -1.0;
     }
 

@@ -720,7 +720,7 @@ void TemperatureStage::find_unknowns()
   const ParticleRows &rows = engine.rows();
   const auto &types = engine.parameters().type;
   melts = std::any_of(types.begin(), types.end(), [](const TypeParameters &one) {
-    return one.melts();
+    return one.keywords.melts();
   });
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];

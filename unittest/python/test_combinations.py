@@ -169,7 +169,7 @@ FEATURES = {
     "thinning": Feature(Lines(keywords=("power 0.6 0.05[pt] 1.5[pt] yield 0.05[p] 5[t]",)), refused={**NOT_WITH_LAWS, "noise": "drift"}),
     "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05[T] 0.02[T] 1.5",)),
                          Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05[T] 0.04[T] {1.5 * np.exp(1.25)}",)),
-                         not_plain_with=("adapt", "thinning", "thixotropy"), refused={**NOT_WITH_LAWS,
+                         not_plain_with=("adapt", "thinning", "thixotropy", "melt"), refused={**NOT_WITH_LAWS,
                                                                        "noise": "arrhenius", "rerun": "arrhenius"}),
     "melt": Feature(Lines(cv=100.0, conductivity=30.0, energy=2.5, keywords=("melt 0.012[T] 0.03[T] 1.0[e/m] solid 3",)),
                     refused={**NOT_WITH_LAWS, "noise": "solid", "warm": "melt", "limit": "kappa", "heat": "melt and gruneisen", "gas": "melt",
@@ -484,7 +484,7 @@ def test_pair(cases, names):
 
 
 # the same features in the words of the pages
-ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "open": r"ix sph/open\b",
+ON_PAGES = {"rkl2": r"\*(viscous )?rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "open": r"ix sph/open\b",
             "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
             "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
             "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant", "thixotropy": r"\*thixotropy\*|iscosities that are not constant",

@@ -148,9 +148,9 @@ COEFF = f"pair_coeff * * 1 10 0.5 2 {SUPPORT[2]} "
     (f"pair_style sph/bulk eos ideal\n{COEFF}cv 1 melt 1 2 3", "melt of type 1 cannot be used with eos ideal", ""),
     (f"pair_style sph/bulk temp 1 4711\n{COEFF}cv 1 melt 1 2 3", "temp cannot be used with melt", ""),
     (f"pair_style sph/bulk temp energy 100 4711\n{COEFF}cv 1 melt 1 2 3", "temp cannot be used with melt", ""),
-    (f"pair_style sph/bulk\n{COEFF}cv 1 solid 10", "solid of type 1 needs melt", ""),
+    (f"pair_style sph/bulk\n{COEFF}cv 1 solid 10", "solid of type 1 requires melt", ""),
     (f"pair_style sph/bulk\n{COEFF}cv 1 melt 1 2 3 solid 0.5", "solid must be >= 1", ""),
-    (f"pair_style sph/bulk\n{COEFF.replace('0.5 2', '0.5 0.9')}cv 1 melt 1 2 3 solid 10", "solid of type 1 needs kappa >= 1", ""),
+    (f"pair_style sph/bulk\n{COEFF.replace('0.5 2', '0.5 0.9')}cv 1 melt 1 2 3 solid 10", "kappa must be >= 1 with solid", ""),
     (f"pair_style sph/bulk shear morris\n{COEFF}cv 1 melt 1 2 3 solid 10", "requires pair style sph/bulk with shear mg", ""),
     (f"pair_style sph/bulk\n{COEFF}cv 1 melt 1 2 3", "viscous implicit cannot be used with melt of pair_coeff", "viscous implicit"),
 ])
