@@ -74,6 +74,7 @@ AtomVecSPHBulkKokkos::AtomVecSPHBulkKokkos(LAMMPS *lmp, bool spins) :
   add_field(OFFSET_MASK, k_vol_heat, vol_heat, OWN, {EXCHANGE});
   add_field(OFFSET_MASK, k_vol_support, vol_support, OWN, {EXCHANGE});
   add_field(OFFSET_MASK, k_shear_rate, shear_rate, OWN, {EXCHANGE});
+  add_field(OFFSET_MASK, k_shear_mu, shear_mu, OWN, {EXCHANGE});
   add_field(TRACE_MASK, k_trace, trace, OWN, {EXCHANGE});
   if (has_spins) {
     add_field(OMEGA_MASK, atoms.k_omega, atoms.omega, ATOM);

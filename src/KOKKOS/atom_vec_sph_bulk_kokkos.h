@@ -77,7 +77,8 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   typedef Kokkos::DualView<double *[3], Kokkos::LayoutRight, LMPDeviceType> tdual_field_3;
 
   tdual_field k_rho, k_drho, k_vfrac, k_esph, k_desph, k_desph_before;
-  tdual_field k_rho_sum, k_vol_rate, k_vol_rate_before, k_vol_heat, k_vol_support, k_shear_rate;
+  tdual_field k_rho_sum, k_vol_rate, k_vol_rate_before, k_vol_heat, k_vol_support, k_shear_rate,
+      k_shear_mu;
   tdual_field_3 k_vest, k_trace;
   tdual_field k_inertia;    // k_inertia and k_omegaest are empty without spins
   tdual_field_3 k_omegaest;

@@ -28,8 +28,8 @@ namespace SPHDissipation {
 
   struct ColumnsKokkos {
     // Own fields that migrate: rho, esph, vest, desph_before, rho_sum, vol_rate, vol_rate_before, vol_heat, vol_support,
-    // shear_rate, trace, inertia, omegaest, states; or a message of a stage
-    static constexpr int OWN = 1 + 1 + 3 + 1 + 6 + 3 + 1 + 3 + MOST_STATES;
+    // shear_rate, shear_mu, trace, inertia, omegaest, states; or a message of a stage
+    static constexpr int OWN = 1 + 1 + 3 + 1 + 7 + 3 + 1 + 3 + MOST_STATES;
     static constexpr int MOST = (OWN > Exchange::ROOM) ? OWN : Exchange::ROOM;
     int n = 0;
     double *base[MOST];

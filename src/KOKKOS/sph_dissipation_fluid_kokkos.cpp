@@ -368,14 +368,14 @@ template <class DeviceType> const double *FluidKokkos<DeviceType>::bound_device(
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_viscosities(StepData &step)
 {
-  if (boundary->empty()) return viscosity_device.run(step.not_fluid);
+  if (boundary->empty()) return viscosity_device.run(boundary->bits());
   const ParticleRows rows = space.rows();
   const int nall = atom->nlocal + atom->nghost, bits = boundary->bits();
   space.for_each(
       "sph:no_pressure", nall,
       KOKKOS_LAMBDA(int i) { rows.particle[i].g = rows.zeta_term[i] = 0.0; });
   set_boundary(step);
-  viscosity_device.run(step.not_fluid);
+  viscosity_device.run(boundary->bits());
   const VectorField vest = space.vest();
   space.for_each(
       "sph:no_slip", nall, KOKKOS_LAMBDA(int i) {

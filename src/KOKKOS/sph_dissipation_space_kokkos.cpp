@@ -156,6 +156,7 @@ template <class DeviceType> void DeviceSpace<DeviceType>::set_particles(int not_
   data->desph = avec.k_desph.template view<DeviceType>().data();
   data->rho_sum = avec.k_rho_sum.template view<DeviceType>().data();
   data->shear_rate = avec.k_shear_rate.template view<DeviceType>().data();
+  data->shear_mu = avec.k_shear_mu.template view<DeviceType>().data();
   data->vol_rate = avec.k_vol_rate.template view<DeviceType>().data();
   data->vol_heat = avec.k_vol_heat.template view<DeviceType>().data();
   data->vol_support = avec.k_vol_support.template view<DeviceType>().data();

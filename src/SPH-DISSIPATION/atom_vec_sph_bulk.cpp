@@ -72,6 +72,7 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   add_array("vol_heat", &vol_heat);
   add_array("vol_support", &vol_support);
   add_array("shear_rate", &shear_rate);
+  add_array("shear_mu", &shear_mu);
   add_array("trace", &trace, NTRACE);
 
   // Fields of each AtomVec method, but for its default fields; the order matters in fields_data_atom and fields_data_vel
@@ -79,8 +80,8 @@ AtomVecSPHBulk::AtomVecSPHBulk(LAMMPS *lmp, bool spins, bool in_views) :
   // with density continuity from rho and rho_sum of the last step; restart files have vest and desph_before of the last step
 
   fields_grow = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest"};
-  const std::vector<std::string> kept = {
-      "rho_sum", "vol_rate", "vol_rate_before", "vol_heat", "vol_support", "shear_rate", "trace"};
+  const std::vector<std::string> kept = {"rho_sum",     "vol_rate",   "vol_rate_before", "vol_heat",
+                                         "vol_support", "shear_rate", "shear_mu",        "trace"};
   fields_copy = {"rmass", "rho", "drho", "vfrac", "esph", "desph", "vest", "desph_before"};
   fields_comm = {"vest"};
   fields_comm_vel = {"vest"};
@@ -356,7 +357,7 @@ void AtomVecSPHBulk::data_atom_post(int ilocal)
                rho[ilocal]);
   if (!density_in_files) rho[ilocal] = 0.0;
   rho_sum[ilocal] = vol_rate[ilocal] = vol_rate_before[ilocal] = vol_heat[ilocal] =
-      vol_support[ilocal] = shear_rate[ilocal] = 0.0;
+      vol_support[ilocal] = shear_rate[ilocal] = shear_mu[ilocal] = 0.0;
   std::fill_n(trace[ilocal], NTRACE, 0.0);
   unpack_restart_init(ilocal);
   desph_before[ilocal] = vest[ilocal][0] = vest[ilocal][1] = vest[ilocal][2] = 0.0;

@@ -329,10 +329,11 @@ void FixSPHBulk::init_viscous()
                "on the temperatures",
                style, style);
   for (int i = 1; i <= atom->ntypes; i++)
-    if (const char *keyword = fluid->model->keyword_that_needs(THERMAL_FRICTION, i))
+    if (const char *keyword = fluid->model->keyword_that_needs(MELTS, i);
+        keyword && settings.mode == Viscous::IMPLICIT)
       error->all(FLERR,
-                 "Fix {} viscous rkl2 or implicit cannot be used with {} of pair_coeff, which "
-                 "type {} has: its friction depends on the temperatures; use viscous explicit",
+                 "Fix {} viscous implicit cannot be used with {} of pair_coeff, which type {} has: "
+                 "its heat capacity depends on the temperature; use viscous rkl2",
                  style, keyword, i);
   if (fluid->model->has_rheology() && settings.mode == Viscous::IMPLICIT)
     error->all(FLERR,

@@ -176,7 +176,7 @@ void FixSPHOpen::init()
   plane->init();
   values->init(fluid->model->choice.eos == Eos::IDEAL);
   for (int i = 1; i <= atom->ntypes; i++)
-    if (const char *keyword = fluid->model->keyword_that_needs(NO_OPEN_ENDS | RHEOLOGY, i))
+    if (const char *keyword = fluid->model->keyword_that_needs(NO_OPEN_ENDS, i))
       error->all(FLERR, "Fix {} cannot be used with {} of pair_coeff, which type {} has", style,
                  keyword, i);
   check_heat();

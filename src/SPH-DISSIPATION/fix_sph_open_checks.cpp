@@ -254,8 +254,7 @@ void FixSPHOpen::check_heat()
 
 void FixSPHOpen::warn_of_cold_zone()
 {
-  const Constants &par = fluid->model->constants();
-  if (par.eos == Eos::IDEAL || !(par.thermal_pressure || par.conducts())) return;
+  if (fluid->model->choice.eos == Eos::IDEAL || !condition->has_heat()) return;
   bigint number[2] = {0, 0}, all[2];
   for (const int i : members) {
     if (!(atom->mask[i] & groupbit)) continue;
@@ -264,11 +263,12 @@ void FixSPHOpen::warn_of_cold_zone()
   }
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all[1] && comm->me == 0)
-    error->warning(FLERR,
-                   "Fix {} {}: {} of {} particles of the zone have no heat, though heat is "
-                   "conducted or has a pressure; use keyword temperature of this fix or of "
-                   "that of the fluid",
-                   style, id, all[1], all[0]);
+    error->warning(
+        FLERR,
+        "Fix {} {}: {} of {} particles of the zone have no heat, though heat is "
+        "conducted or acts on pressure or viscosity; use keyword temperature of this fix or of "
+        "that of the fluid",
+        style, id, all[1], all[0]);
 }
 
 /* ----------------------------------------------------------------------

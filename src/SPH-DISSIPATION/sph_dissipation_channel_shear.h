@@ -36,8 +36,8 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
 
 // AlongR or, with FR2, AlongRBySquare, with a mean of mu of both particles: within a fluid, the arithmetic mean, which has a
-// dissipation function; between two fluids, the harmonic mean; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: no
-// pair has two fluids
+// dissipation function; between two fluids, and with solid, the harmonic mean, with which a solid does not hold the fluid
+// within the support; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: all pairs have the arithmetic mean
 template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;
@@ -170,13 +170,14 @@ namespace SPHDissipation {
     static constexpr const char *NAME = "shear";
     enum { ALONG_R, BY_SQUARE, ALONG_U, ALIKE, UNLIKE, NPAIR };    // ALIKE, UNLIKE: per mu
     static constexpr int NTYPE = Rheology::NUMBER;
-    static constexpr std::array<TypeKeyword, 6> TYPE_KEYWORDS = {
+    static constexpr std::array<TypeKeyword, 7> TYPE_KEYWORDS = {
         {{"power", "n mu_min mu_max", 3, 0, RHEOLOGY},
          {"carreau", "lambda n a mu_inf", 4, 0, RHEOLOGY},
          {"cross", "lambda m mu_inf", 3, 0, RHEOLOGY},
          {"yield", "tau_y m", 2, 0, RHEOLOGY},
          {"smagorinsky", "length mu_max", 2, 0, RHEOLOGY},
-         {"arrhenius", "E T0 factor_max", 3, 0, HEAT_CAPACITY | RHEOLOGY | THERMAL_FRICTION}}};
+         {"arrhenius", "E T0 factor_max", 3, 0, HEAT_CAPACITY | RHEOLOGY},
+         {"solid", "factor", 1, 0, HEAT_CAPACITY | RHEOLOGY}}};
     static constexpr std::array<TypeVariable, 2> TYPE_VARIABLES = {
         {{"power_n", Rheology::POWER_N}, {"yield_stress", Rheology::YIELD_STRESS}}};
 

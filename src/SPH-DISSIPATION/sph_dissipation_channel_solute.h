@@ -33,7 +33,7 @@ namespace SPHDissipation {
     enum { GIVEN, D };    // with D = 0, particles keep their amounts
     static constexpr int NTYPE = 2;
     static constexpr std::array<TypeKeyword, 1> TYPE_KEYWORDS = {
-        {{"solute", "D", NTYPE, 0, NO_NOISE | NO_OPEN_ENDS, true}}};
+        {{"solute", "D", NTYPE, 0, NO_NOISE, true}}};
     static constexpr std::array<TypeVariable, 1> TYPE_VARIABLES = {{{"solute", D}}};
     static constexpr const char *FIELD = "solute", *KEYWORD = "solute";
 

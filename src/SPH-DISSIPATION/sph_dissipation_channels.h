@@ -387,6 +387,20 @@ namespace SPHDissipation {
     double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
+    // Return the temperature at a heat per mass, and its inverse; return the solid fraction, 0 without melt
+    SPH_FUNCTION double temperature(double cv, double q) const
+    {
+      return HeatChannel::temperature(of<HeatChannel>(), cv, q);
+    }
+    SPH_FUNCTION double heat(double cv, double T) const
+    {
+      return HeatChannel::heat(of<HeatChannel>(), cv, T);
+    }
+    SPH_FUNCTION double solid_fraction(double T) const
+    {
+      return HeatChannel::solid_fraction(of<HeatChannel>(), T);
+    }
+    bool melts() const { return solid_fraction(0.0) > 0.0; }
   };
 
   // A pair of types with its coefficients from pair_coeff for all channels

@@ -223,6 +223,7 @@ void Engine::set_rows()
   const Fields &fields = *Fields::of(atom);
   atom_rows->rho_sum = fields.rho_sum;
   atom_rows->shear_rate = fields.shear_rate;
+  atom_rows->shear_mu = fields.shear_mu;
   atom_rows->vol_rate = fields.vol_rate;
   atom_rows->vol_heat = fields.vol_heat;
   atom_rows->vol_support = fields.vol_support;

@@ -78,8 +78,8 @@ namespace SPHDissipation {
     // volume and internal energy, filled part of the support (1 inside of the fluid); rate of the volume before
     double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
     double *vol_heat = nullptr, *vol_support = nullptr;
-    double *shear_rate =
-        nullptr;    // rate of shear at the last forces, if any viscosity depends on it; else 0
+    // rate of shear and mu at the last forces, if any mu is not constant; else 0
+    double *shear_rate = nullptr, *shear_mu = nullptr;
     bool density_in_files = false;    // data files have a column rho
 
     // At the end of a run or minimization: the trace of each particle (0: none); number of particles with a trace, largest

@@ -375,8 +375,8 @@ void Fluid::list_stages()
     add_wall_volumes(walls && !noisy);
     add(par.by_rate && rates, "shear rates", VOLUMES, VISCOSITIES,
         call(*this, &Fluid::find_viscosities));
-    add(par.by_rate && !rates, "kept rates", VOLUMES, VISCOSITIES,
-        call(*viscosity, &ViscosityStage<HostSpace>::keep, all_bits));
+    add(par.by_rate && !rates && !stiff, "kept viscosities", VOLUMES, VISCOSITIES,
+        call(*viscosity, &ViscosityStage<HostSpace>::keep));
     add(true, "pressures", VOLUMES, PRESSURES, [this, bits](StepData &step) {
       step.nbeyond = pressure->run(bound(), bits);
     });
@@ -427,7 +427,7 @@ void Fluid::list_stages()
     add(true, "restored", NOTHING, NOTHING, call(*temperature, &StiffStage::restore));
   }
   trial = false;
-  add_passes(!viscous->active());    // else the rates of shear are those of the guess
+  add_passes(!viscous->active());    // else the viscosities are those of the guess
   add_temperatures(stiff_heat && !par.thermal_pressure);    // no force depends on heat
   add(par.loops_of_flows, "flows", SLOPES | FORCES, FORCES, [this](StepData &) {
     flows->run([this]() {
@@ -482,7 +482,7 @@ void Fluid::finish()
 
 void Fluid::find_viscosities()
 {
-  if (boundary->empty()) return viscosity->run(not_fluid());
+  if (boundary->empty()) return viscosity->run(0);
   const int nall = atom->nlocal + atom->nghost;
   Particle *const particle = engine->particle;
   engine->for_each(nall, [&](int i) {
@@ -490,7 +490,7 @@ void Fluid::find_viscosities()
   });
   boundary->run(neighbors());
   boundary->set_squares();
-  viscosity->run(not_fluid());
+  viscosity->run(boundary->bits());
   const bool moves = update->whichflag != 2;
   engine->for_each(nall, [&](int i) {
     if (!is_boundary(i)) return;
@@ -800,7 +800,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
       const double temperature = value(i);
       desph_before[i] = 0.0;
       if (in_zone) {    // the density of the zone is not known yet
-        atom->esph[i] = atom->rmass[i] * model->heat_capacity(type) * temperature;
+        atom->esph[i] = atom->rmass[i] * engine->parameters().type[type].heat(temperature);
         continue;
       }
       states.begin(i, temperature);

@@ -107,6 +107,9 @@ namespace SPHDissipation {
     {
       return (coeffs[type].cv > 0.0) ? coeffs[type].cv : choice.heat_capacity;
     }
+    // Return the temperature at a heat per mass, 0 without heat capacity; return the heat at a temperature
+    double temperature(int type, double q) const;
+    double heat(int type, double T) const;
     bool has_temperatures() const;       // any type has a heat capacity
     bool heat_acts(int type) const;      // on pressure, viscosity, or states, or it is conducted
     bool has_rheology() const;           // mu of any type is not constant

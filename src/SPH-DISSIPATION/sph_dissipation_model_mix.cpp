@@ -106,7 +106,7 @@ void FluidModel::derive(int dim, double support)
       derived.zeta = bulk_coefficient(type.kappa, intrinsic);
     derived.zeta_at_0 = derived.zeta;
     derived.zeta_by_mu = 0.0;
-    if (keyword_that_needs(RHEOLOGY, i) && !type.intrinsic) {
+    if (keyword_that_needs(RHEOLOGY, i) && !type.intrinsic && !derived.has_solid()) {
       derived.zeta_at_0 = type.kappa;
       derived.zeta_by_mu = -SPHDissipation::intrinsic_kappa(choice.shear, dim, 1.0);
     }
@@ -198,7 +198,7 @@ TypePair FluidModel::pair_fluid(int i, int j) const
         fluid.largest_zeta =
             std::max(fluid.largest_zeta, std::fabs(one.zeta_at_0 + one.zeta_by_mu * mu));
     }
-    fluid.alike = is_alike(i, j);
+    fluid.alike = is_alike(i, j) && !par->type[i].has_solid();
     fluid.largest_mu = std::max(range[0].most, range[1].most);
   }
   for (std::size_t k = 0; k < of_pairs.size(); k++)
@@ -300,6 +300,17 @@ void FluidModel::check_keywords(int i) const
   if (keyword && heat_capacity(i) == 0.0)
     error->all(FLERR, Error::NOLASTLINE,
                "Pair_coeff {} of type {} needs its heat capacity, keyword cv", keyword, i);
+  if (par->type[i].has_solid() && !par->type[i].keywords.melts())
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_coeff solid of type {} requires melt, which gives the range of temperatures; use "
+        "melt",
+        i);
+  if (par->type[i].has_solid() && par->type[i].zeta < -1e-12 * intrinsic_kappa(i, i))
+    error->all(
+        FLERR, Error::NOLASTLINE,
+        "Pair_coeff kappa must be >= {} with solid, that of its shear term, not {} for type {}",
+        intrinsic_kappa(i, i), coeffs[i].kappa, i);
   keyword = keyword_that_needs((choice.eos == Eos::IDEAL) ? NOT_EOS_IDEAL : EOS_IDEAL, i);
   if (keyword)
     error->all(FLERR, Error::NOLASTLINE, "Pair_coeff {} of type {} cannot be used with eos {}",
@@ -366,7 +377,7 @@ bool FluidModel::is_alike(int i, int j) const
   return coeffs[i].viscosity[MU] == coeffs[j].viscosity[MU] &&
       std::all_of(keywords.begin(), keywords.end(), [&](const TypeKeyword &one) {
            const auto first = a.begin() + one.first;
-           return !(one.needs & RHEOLOGY) ||
+           return !(one.needs & (RHEOLOGY | MELTS)) ||
                std::equal(first, first + one.count, b.begin() + one.first);
          });
 }
@@ -444,6 +455,16 @@ bool FluidModel::is_of_pair_energy(const char *name) const
 }
 
 /* ---------------------------------------------------------------------- */
+
+double FluidModel::temperature(int type, double q) const
+{
+  return (heat_capacity(type) > 0.0) ? par->type[type].temperature(q) : 0.0;
+}
+
+double FluidModel::heat(int type, double T) const
+{
+  return par->type[type].heat(T);
+}
 
 bool FluidModel::has_temperatures() const
 {

@@ -189,6 +189,7 @@ void OpenCondition::init(const FluidModel &fluid_in)
   fields = Fields::of(atom);
   const Constants &par = fluid->constants();
   warm = par.thermal_pressure || par.conducts() || values.given(OpenValues::TEMPERATURE);
+  for (int i = 1; i < par.ntypes_1; i++) warm = warm || fluid_in.heat_acts(i);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -266,8 +267,7 @@ OpenState OpenCondition::own_state(int i, Side side) const
 double OpenCondition::temperature(int i, const OpenState &state) const
 {
   if (values.given(OpenValues::TEMPERATURE)) return values(OpenValues::TEMPERATURE, i);
-  const double cv = fluid->heat_capacity(atom->type[i]);
-  return (cv > 0.0) ? state.q / cv : 0.0;
+  return fluid->temperature(atom->type[i], state.q);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -312,7 +312,7 @@ OpenCondition::Reference OpenCondition::reference(int i, Side side) const
   if (gets)
     ref.q = values.given(OpenValues::ENERGY)
         ? values(OpenValues::ENERGY, i)
-        : fluid->heat_capacity(atom->type[i]) * values(OpenValues::TEMPERATURE, i);
+        : fluid->heat(atom->type[i], values(OpenValues::TEMPERATURE, i));
   ref.at_heat = gets || (side == ZONE && (is_new || !(density_of_energy(i) > 0.0)));
 
   if (values.given(OpenValues::RHO)) {

@@ -91,11 +91,11 @@ void OpenStage::run()
   set_states();
   set_zones();
   Particle *const particle = engine.particle;
-  FlowRow *const heat = engine.heat().data();
-  const bool conducts = engine.constants().conducts();
-  exchange.forward({field(particle, &particle->vol, 2),
-                    {zone_of.data(), 1, 1},
-                    field(heat, conducts ? &heat->vol : nullptr, conducts ? 3 : 0)});
+  exchange.forward({field(particle, &particle->vol, 2), {zone_of.data(), 1, 1}});
+  Flows::visit(engine.constants().flows, [&](auto, int k) {
+    FlowRow *const row = engine.flow[k].data();
+    exchange.forward({field(row, &row->vol, 3)});
+  });
   update_ghosts();
 }
 

@@ -35,6 +35,14 @@ namespace SPHDissipation {
     TypeCoeffs keywords;                // of the channels
     int other = 1;                      // 1: the type belongs to another style of pair_style hybrid
     States::Numbers states;             // for the time step
+
+    // Return the temperature at a heat per mass, with a heat capacity, and its inverse
+    SPH_FUNCTION double temperature(double q) const
+    {
+      return keywords.temperature(heat_capacity, q);
+    }
+    SPH_FUNCTION double heat(double T) const { return keywords.heat(heat_capacity, T); }
+    bool has_solid() const { return keywords.rheology()[Rheology::SOLID_FACTOR] != 0.0; }
   };
 
   // Settings and coefficients of the fluid and what follows from them, for one run or until a coefficient changes.
@@ -66,6 +74,8 @@ namespace SPHDissipation {
           if (a != pair[ntypes_1 + 1].a[k]) uniform = false;
           if (a != 0.0) inviscid = false;
         }
+    for (const TypeParameters &one : type)
+      if (one.has_solid()) uniform = false;                   // harmonic means within a fluid
     for (int i = 1; i < ntypes_1 && own_temperatures; i++)    // the noise has the flow of heat
       if (type[i].flow[HEAT_FLOW] != type[1].flow[HEAT_FLOW]) uniform = false;
   }

@@ -130,8 +130,8 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the rate of the temperature at constant states: from the rate of the internal energy, less the work of the
-    // elastic pressure and of the states
+    // Return the rate of the temperature at constant states and heat capacity: from the rate of the internal energy, less the
+    // work of the elastic pressure and of the states
 
     SPH_FUNCTION double temperature_rate(int i) const
     {
@@ -153,14 +153,13 @@ namespace SPHDissipation {
 
     SPH_FUNCTION double temperature(int i) const
     {
-      const double cv = types[type[i]].heat_capacity;
-      return (cv > 0.0) ? thermal_energy(i) / (rmass[i] * cv) : 0.0;
+      const TypeParameters &par = types[type[i]];
+      return (par.heat_capacity > 0.0) ? par.temperature(thermal_energy(i) / rmass[i]) : 0.0;
     }
     SPH_FUNCTION double energy_at(int i, double temperature) const
     {
       const TypeParameters &par = types[type[i]];
-      return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat_capacity * temperature) +
-          held(i);
+      return rmass[i] * (elastic_energy(eos, par.eos, rho[i]) + par.heat(temperature)) + held(i);
     }
   };
 
@@ -188,8 +187,9 @@ namespace SPHDissipation {
     StateRows states;
     double *state_pressure;          // read if any type has states
     FlowRow *flow[Flows::NUMBER];    // of the flows of any type
-    double *rho_sum = nullptr;       // see Fields, as the next four; with density continuity
-    double *shear_rate = nullptr;    // of owned particles, as the next three
+    double *rho_sum = nullptr;       // see Fields, as the next five; with density continuity
+    double *shear_rate = nullptr;    // of owned particles, as the next four
+    double *shear_mu = nullptr;
     double *vol_rate = nullptr, *vol_heat = nullptr, *vol_support = nullptr;
     double *viscosity = nullptr;        // mu, if mu of any type is not constant
     const PairCoeff *pair = nullptr;    // of types i and j: pair[i * par.ntypes_1 + j]
@@ -302,9 +302,10 @@ namespace SPHDissipation {
     SPH_FUNCTION void set_viscosity(int i, int not_fluid) const
     {
       const TypeParameters &own = types[type[i]];
+      const double T = states.temperature(i);
       viscosity[i] = is_fluid(i, not_fluid)
           ? Rheology::viscosity(own.keywords.rheology(), own.mu + states.viscosity(i), rho[i],
-                                shear_rate[i], states.temperature(i))
+                                shear_rate[i], T, own.keywords.solid_fraction(T))
           : -1.0;
     }
 

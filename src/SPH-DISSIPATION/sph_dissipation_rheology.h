@@ -25,9 +25,10 @@
 // Two terms are added to these, or to a constant mu:
 //   yield:        tau_y [1 - exp(-m gamma)]/gamma                 T. C. Papanastasiou, J. Rheol. 31, 385 (1987)
 //   smagorinsky:  rho l^2 gamma up to a bound                     J. Smagorinsky, Mon. Weather Rev. 91, 99 (1963)
-// A Bingham fluid has yield, a Herschel-Bulkley fluid has yield with power.  The sum has a factor:
+// A Bingham fluid has yield, a Herschel-Bulkley fluid has yield with power.  The sum has two factors:
 //   arrhenius:    exp[E (1/T - 1/T0)] up to a bound; E = energy of activation over the gas constant
 //                 S. Arrhenius, Z. Phys. Chem. 4, 226 (1889)
+//   solid:        factor^s with the solid fraction s of keyword melt
 // No LAMMPS include.
 
 #include "sph_dissipation_function.h"
@@ -58,6 +59,7 @@ namespace SPHDissipation {
       ARRHENIUS_E,
       ARRHENIUS_T0,
       ARRHENIUS_MOST,
+      SOLID_FACTOR,
       NUMBER
     };
 
@@ -74,9 +76,9 @@ namespace SPHDissipation {
       return (factor < a[ARRHENIUS_MOST]) ? factor : a[ARRHENIUS_MOST];
     }
 
-    // Return the viscosity at this rate of shear, mass density, and temperature
+    // Return the viscosity at this rate of shear, mass density, temperature, and solid fraction
     SPH_FUNCTION static double viscosity(const double *a, double mu, double rho, double rate,
-                                         double T)
+                                         double T, double solid)
     {
       double sum = mu;
       if (a[POWER_N] != 0.0) {
@@ -100,6 +102,7 @@ namespace SPHDissipation {
         sum += between(0.0, rho * a[SMAGORINSKY_LENGTH] * a[SMAGORINSKY_LENGTH] * rate,
                        a[SMAGORINSKY_MOST]);
       if (a[ARRHENIUS_E] != 0.0) sum *= thermal_factor(a, T);
+      if (a[SOLID_FACTOR] != 0.0 && solid > 0.0) sum *= pow(a[SOLID_FACTOR], solid);
       return sum;
     }
 
@@ -124,6 +127,7 @@ namespace SPHDissipation {
         of.least *= exp(-a[ARRHENIUS_E] / a[ARRHENIUS_T0]);    // T = infinity
         of.most *= a[ARRHENIUS_MOST];
       }
+      if (a[SOLID_FACTOR] != 0.0) of.most *= a[SOLID_FACTOR];
       return of;
     }
 
@@ -132,7 +136,8 @@ namespace SPHDissipation {
     {
       for (int k = 0; k < NUMBER; k++)
         if (!(a[k] >= 0.0 && std::isfinite(a[k])))
-          return "power, carreau, cross, yield, smagorinsky, and arrhenius must have numbers >= 0";
+          return "power, carreau, cross, yield, smagorinsky, arrhenius, and solid must have "
+                 "numbers >= 0";
       if ((a[POWER_N] != 0.0) + (a[CARREAU_LAMBDA] != 0.0) + (a[CROSS_LAMBDA] != 0.0) > 1)
         return "power, carreau, and cross must not be given together";
       const auto some = [a](int from, int to) {
@@ -156,6 +161,7 @@ namespace SPHDissipation {
       if (some(ARRHENIUS_E, ARRHENIUS_MOST) &&
           !(a[ARRHENIUS_E] > 0.0 && a[ARRHENIUS_T0] > 0.0 && a[ARRHENIUS_MOST] >= 1.0))
         return "arrhenius must have E > 0, T0 > 0, and factor_max >= 1";
+      if (a[SOLID_FACTOR] != 0.0 && !(a[SOLID_FACTOR] >= 1.0)) return "solid must be >= 1";
       return nullptr;
     }
   };

@@ -124,9 +124,9 @@ namespace SPHDissipation {
     NOT_EOS_IDEAL = 8,
     NO_OPEN_ENDS = 16,
     TENSION = 32,
-    RHEOLOGY = 64,             // mu that may not be constant, see FluidModel::check_rheology()
-    THERMAL_FRICTION = 128,    // the friction depends on temperatures
-    NO_RERUN = 256             // forces depend on a state that snapshots do not have
+    RHEOLOGY = 64,    // mu that may not be constant, see FluidModel::check_rheology()
+    MELTS = 128,      // the heat capacity depends on the temperature
+    NO_RERUN = 256    // forces depend on a state that snapshots do not have
   };
 
   // Keyword of pair_coeff with coefficients of a type: count numbers, or up to count in groups of equal size.
@@ -156,8 +156,9 @@ namespace SPHDissipation {
   struct Terms {
     Shear shear;
     bool optional;
-    bool by_rate;      // mu is not constant
-    bool one_fluid;    // all pairs have the same coefficients; read with by_rate
+    bool by_rate;    // mu is not constant
+    bool
+        one_fluid;    // all pairs have the same coefficients, and the arithmetic mean; read with by_rate
   };
 
   // Columns of a row of sums over pairs: with spins the torque (3 numbers), then the heat of each channel with a bit, but

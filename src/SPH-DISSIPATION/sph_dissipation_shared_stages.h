@@ -105,17 +105,24 @@ namespace SPHDissipation {
 
   /* ---------------------------------------------------------------------- */
 
-  template <class Space> void ViscosityStage<Space>::run(int not_fluid)
+  template <class Space> void ViscosityStage<Space>::run(int walls)
   {
-    this->space.set_shear_rates(not_fluid);
-    keep(not_fluid);
+    this->space.set_shear_rates(walls);
+    const ParticleRows rows = this->space.rows();
+    this->space.for_each(
+        "sph:viscosity", rows.nlocal, SPH_LAMBDA(int i) {
+          rows.set_viscosity(i, walls);
+          rows.shear_mu[i] = rows.viscosity[i];
+        });
+    this->space.forward({{rows.viscosity, 1, 1}});
   }
 
-  template <class Space> void ViscosityStage<Space>::keep(int not_fluid)
+  template <class Space> void ViscosityStage<Space>::keep()
   {
     const ParticleRows rows = this->space.rows();
     this->space.for_each(
-        "sph:viscosity", rows.nlocal, SPH_LAMBDA(int i) { rows.set_viscosity(i, not_fluid); });
+        "sph:viscosity", rows.nlocal,
+        SPH_LAMBDA(int i) { rows.viscosity[i] = rows.shear_mu[i]; });
     this->space.forward({{rows.viscosity, 1, 1}});
   }
 

@@ -109,10 +109,10 @@ namespace SPHDissipation {
    public:
     using SharedStage<Space>::SharedStage;
 
-    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep these rates.  keep():
-    // set viscosities from the kept rates
-    void run(int not_fluid);
-    void keep(int not_fluid);
+    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep both.  Particles of open
+    // zones have them as fluid has; walls, their bits, have none.  keep(): set the kept viscosities
+    void run(int walls);
+    void keep();
   };
 
   // Pressure and bulk term of all fluid particles, from the volume and density of pass 1, see ParticleRows::set_pressure()

@@ -627,13 +627,14 @@ void StiffStage::rkl2_step(double interval)
   }
   for (int j = 2; j <= s; j++) {
     const RKL2::Stage stage = rkl2.stage(j);
+    const Unknowns &acting = driving(y);
     engine.for_each(n, [&](int k) {
-      z_old[k] = stage.mu * z[k] + stage.nu * z_old[k] + stage.mu_rate * y[k];
+      z_old[k] = stage.mu * z[k] + stage.nu * z_old[k] + stage.mu_rate * acting[k];
       std::swap(z[k], z_old[k]);
     });
     if (j == s) break;
     statistics[APPLICATIONS] += 1.0;
-    friction(y, drag);
+    friction(acting, drag);
     engine.for_each(n, [&](int k) {
       y_old[k] = stage.mu * y[k] + stage.nu * y_old[k] + stage.gamma_rate * first[k] +
           stage.mu_rate * (first[k] - interval * inverse_mass[k] * drag[k]);
@@ -686,7 +687,7 @@ void TemperatureStage::run(int prescribed_in)
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];
     guess[k] = first[k] + x[k];
-    const double change = mass[k] * (guess[k] - temperature[i]);
+    const double change = mass[k] * (scaled_heat(i, guess[k]) - scaled_heat(i, temperature[i]));
     atom->esph[i] += change;
     desph_before[i] += rate * change;
   }
@@ -717,15 +718,44 @@ void TemperatureStage::find_unknowns()
   const double half = update->setupflag ? 1.0 : -0.5 * update->dt;
   const double later = update->setupflag ? 0.0 : 0.5 * update->dt;
   const ParticleRows &rows = engine.rows();
+  const auto &types = engine.parameters().type;
+  melts = std::any_of(types.begin(), types.end(), [](const TypeParameters &one) {
+    return one.keywords.melts();
+  });
   for (std::size_t k = 0; k < unknown.size(); k++) {
     const int i = unknown[k];
     mass[k] = atom->rmass[i] * engine.parameters().type[atom->type[i]].heat_capacity;
     inverse_mass[k] = 1.0 / mass[k];
     const ParticleRows::Work work = rows.work(i);
     force[k] = -work.elastic - (takes_end() ? 0.5 * work.thermal : 0.0);
-    before[k] = temperature[i] + (half * desph_before[i] + later * work.elastic) * inverse_mass[k];
-    guess[k] = (settings.mode == Viscous::RKL2) ? before[k] : temperature[i];
+    before[k] = scaled_heat(i, temperature[i]) +
+        (half * desph_before[i] + later * work.elastic) * inverse_mass[k];
+    guess[k] = (settings.mode == Viscous::RKL2) ? unscaled(i, before[k]) : temperature[i];
   }
+}
+
+/* ---------------------------------------------------------------------- */
+
+double TemperatureStage::scaled_heat(int i, double T) const
+{
+  const TypeParameters &par = engine.parameters().type[atom->type[i]];
+  return melts ? par.heat(T) / par.heat_capacity : T;
+}
+
+double TemperatureStage::unscaled(int i, double heat) const
+{
+  const TypeParameters &par = engine.parameters().type[atom->type[i]];
+  return melts ? par.temperature(heat * par.heat_capacity) : heat;
+}
+
+const Unknowns &TemperatureStage::driving(const Unknowns &increments)
+{
+  if (!melts) return increments;
+  driven.resize(increments.size());
+  for_unknown([&](int i, std::size_t k) {
+    driven[k] = unscaled(i, before[k] + increments[k]) - unscaled(i, before[k]);
+  });
+  return driven;
 }
 
 /* ----------------------------------------------------------------------

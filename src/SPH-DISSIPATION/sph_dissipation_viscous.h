@@ -146,6 +146,8 @@ namespace SPHDissipation {
     void solve_step();
 
     virtual void friction(const Unknowns &in, Unknowns &out) = 0;    // out = Gamma in
+    // Return the values that drive the flows at these increments over y-, if they are others: rkl2
+    virtual const Unknowns &driving(const Unknowns &increments) { return increments; }
     virtual void start();
 
     void implicit_step(double interval);
@@ -247,7 +249,8 @@ namespace SPHDissipation {
   // unknowns are the temperatures of the particles that conduct and whose energy the integrators advance.  During the
   // forces, this stage sets the internal energy of owned atoms, so that conduction and pressure have T_b.  It also sets
   // desph_before, so that the energy at the end of the step contains the flows at T_b.  R is all other heat, from the last
-  // pass 2 with the velocities of the step.
+  // pass 2 with the velocities of the step.  With melt, the unknown of rkl2 is the heat over cv, and the temperatures, a
+  // function of it, drive the flows.
 
   class TemperatureStage : public StiffStage {
    public:
@@ -263,7 +266,7 @@ namespace SPHDissipation {
 
     double memory_usage() const override
     {
-      return StiffStage::memory_usage() + bytes(flow, temperature);
+      return StiffStage::memory_usage() + bytes(flow, temperature, driven);
     }
 
     // Return the scale of the residual, from the temperatures before the step and in the solution, relative to their mean
@@ -273,6 +276,8 @@ namespace SPHDissipation {
     BoundaryStage &boundary;
     std::vector<double> flow;           // heat per time that owned and ghost atoms get
     std::vector<double> temperature;    // of owned atoms, from their energies before run()
+    Unknowns driven;                    // of driving()
+    bool melts = false;                 // in this step, of any type
     double mean = 0.0;                  // mean temperature before the step
 
     void find_unknowns();
@@ -280,6 +285,10 @@ namespace SPHDissipation {
     void set_temperatures();     // of owned and ghost atoms to those of the guess
     void send_temperatures();    // of owned atoms to ghosts
     void friction(const Unknowns &in, Unknowns &out) override;
+    const Unknowns &driving(const Unknowns &increments) override;
+    // Return the heat of an owned particle over m cv at a temperature; return its inverse
+    double scaled_heat(int i, double T) const;
+    double unscaled(int i, double heat) const;
     void start() override;
     bool takes_end() const
     {

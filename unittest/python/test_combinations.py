@@ -117,7 +117,7 @@ def body(fix):
 LARGE = "rkl2", "implicit"  # they start anew after a change of the time step or of a coefficient
 TARGET = "1.0-0.75*(x>3[l])*(x<6[l])+1.6*(x>10[l])*(x<13[l])"
 NOT_WITH_BODIES = {"open": "fix sph/open", "spin": "micropolar", "idle_spin": "micropolar", "warm": "temp energy",
-                   "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "thixotropy": "not constant", "rerun": "rerun"}
+                   "gas": "eos ideal", "heat": "gruneisen", "interdrag": "interdrag", "thinning": "not constant", "arrhenius": "not constant", "thixotropy": "not constant", "melt": "not constant", "rerun": "rerun"}
 NOT_WITH_LAWS = {"warm": "drift", "limit": "limit", "interdrag": "not constant", "implicit": "implicit", "spin": "sph/bulk", "idle_spin": "sph/bulk"}
 
 FEATURES = {
@@ -166,19 +166,22 @@ FEATURES = {
     "interdrag": Feature(Lines(types=2, unlike=("interdrag 0.8[pt/ll]",))),
     "tension": Feature(Lines(types=2, unlike=("tension 0.8[pl]",))),
     "cohesion": Feature(Lines(keywords=("cohesion 5.0[pl]",)), refused={"surface": "tension yes"}),
-    "thinning": Feature(Lines(keywords=("power 0.6 0.05[pt] 1.5[pt] yield 0.05[p] 5[t]",)), refused={**NOT_WITH_LAWS, "open": "power", "noise": "drift"}),
+    "thinning": Feature(Lines(keywords=("power 0.6 0.05[pt] 1.5[pt] yield 0.05[p] 5[t]",)), refused={**NOT_WITH_LAWS, "noise": "drift"}),
     "arrhenius": Feature(Lines(cv=100.0, energy=2.5, keywords=("arrhenius 0.05[T] 0.02[T] 1.5",)),
                          Lines(cv=100.0, energy=2.5, mu=0.5 * np.exp(-1.25), keywords=(f"arrhenius 0.05[T] 0.04[T] {1.5 * np.exp(1.25)}",)),
-                         not_plain_with=("adapt", "thinning", "thixotropy"), refused={**NOT_WITH_LAWS, "open": "arrhenius", "rkl2": "viscous", "implicit": "viscous",
+                         not_plain_with=("adapt", "thinning", "thixotropy", "melt"), refused={**NOT_WITH_LAWS,
                                                                        "noise": "arrhenius", "rerun": "arrhenius"}),
+    "melt": Feature(Lines(cv=100.0, conductivity=30.0, energy=2.5, keywords=("melt 0.012[T] 0.03[T] 1.0[e/m] solid 3",)),
+                    refused={**NOT_WITH_LAWS, "noise": "solid", "warm": "melt", "limit": "kappa", "heat": "melt and gruneisen", "gas": "melt",
+                             "implicit": "melt", "rerun": "solid"}),
     "thixotropy": Feature(Lines(room=("thixotropy",), state=("0.3",), keywords=("thixotropy 0.8[pt] 2.0[1/t] 5.0",)),
-                          refused={**NOT_WITH_LAWS, "open": "thixotropy", "noise": "drift", "rerun": "states"}),
+                          refused={**NOT_WITH_LAWS, "noise": "drift", "rerun": "states"}),
     "relax": Feature(Lines(room=("relax 2",), state=("-0.99 0",), keywords=("relax 4.0[pt] 0.02[t] 3.0[pt] 0.5[t]",))),
     "heat": Feature(Lines(cv=100.0, conductivity=30.0, keywords=("gruneisen 0.5 0.01[T]",), energy=2.5),
                     refused={"rerun": "conductivity", "noise": "conductivity", "gas": "gruneisen"}),
     "solute": Feature(Lines(room=("solute",), state=("1.0",), keywords=("solute 0.4[ll/t]",),
                             early=("variable amount atom 1.0+0.5*sin(id)", "set group all d_solute v_amount")),
-                      effect=False, refused={"open": "solute", "noise": "solute", "warm": "solute"}),
+                      effect=False, refused={"noise": "solute", "warm": "solute"}),
     "idle_room": Feature(Lines(room=("relax 1",), state=("0",)), Lines(), effect=False),
     "gas": Feature(Lines(pair=("eos ideal",), energy=2.5), refused={"noise": "ideal"}),
     "warm": Feature(Lines(pair=("temp energy 100[e/mT] 4711",), energy=2.5),
@@ -481,15 +484,16 @@ def test_pair(cases, names):
 
 
 # the same features in the words of the pages
-ON_PAGES = {"rkl2": r"\*viscous rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "open": r"ix sph/open\b",
+ON_PAGES = {"rkl2": r"\*(viscous )?rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "open": r"ix sph/open\b",
             "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
             "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
             "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant", "thixotropy": r"\*thixotropy\*|iscosities that are not constant",
-            "cohesion": r"\*cohesion\*", "heat": r"\*(conductivity|gruneisen)\*", "solute": r"\*solute\*", "gas": r"\*eos ideal\*"}
+            "melt": r"\*(melt|solid)\*|iscosities that are not constant", "cohesion": r"\*cohesion\*", "heat": r"\*(conductivity|gruneisen)\*", "solute": r"\*solute\*", "gas": r"\*eos ideal\*"}
 # sentences that say it in another way
 REQUIRED = {frozenset(["thinning", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["thixotropy", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["thixotropy", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["thinning", "idle_spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["arrhenius", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
+            frozenset(["melt", "spin"]): r"Pair style \*sph/bulk\*.* required", frozenset(["melt", "idle_spin"]): r"Pair style \*sph/bulk\*.* required",
             frozenset(["heat", "gas"]): r"\*gruneisen\* values .*with \*eos linear\* and \*tait\*",
             frozenset(["contact", "noise"]): r"With \*temp\* .*\*e\* must be 1 and \*mu\* 0",
             frozenset(["hot_bodies", "noise"]): r"\*temp T seed\* .*\*conductivity\*"}

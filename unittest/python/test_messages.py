@@ -92,7 +92,7 @@ def test_names_of_numbers():
     """... of the keywords of pair_coeff, which a message about too few of them has, are those of the pages, in their order and number."""
     page = "".join(path.read_text() for path in (ROOT / "doc" / "src").glob("pair_sph_bulk*.rst"))
     rows = [row for file in SOURCES for row in re.findall(r'\{"(\w+)",\s+"([^"]*)",\s+(\w+),\s+\w+,\s+[A-Z_ |]+(?:, true)?\}', file.read_text())]
-    assert len(rows) == 14
+    assert len(rows) == 16
     for name, words, count in rows:
         assert name == "conductivity" or re.search(rf"^ +\*{name}\* values? = {words} (?:\.\.\. )?= ", page, re.MULTILINE), name
         assert not count.isdigit() or int(count) == len(words.split()), name
@@ -113,16 +113,14 @@ REFUSALS = {
     "Fix {} density rho0 cannot be used with density continuity": [(FLUID, "*density rho0*", "*density continuity*"), (PAIR, "*density continuity*", "*density rho0*")],
     "Fix {} viscous rkl2 or implicit cannot be used in a minimization": [(FLUID, "*viscous rkl2*", "*implicit*", "minimization")],
     "Fix {} viscous rkl2, or implicit with scheme sdirk2 or euler, cannot": [(FLUID, "They cannot", "fix dt/reset")],
-    "Fix {} viscous rkl2 or implicit cannot be used with {} of pair_coeff": [(FLUID, "*viscous rkl2*", "*implicit*", keywords("THERMAL_FRICTION")),
-                                                                            (RHEOLOGY, "*viscous rkl2*", keywords("THERMAL_FRICTION"))],
-    "Fix {} viscous implicit cannot be used with a viscosity that": [(FLUID, "*viscous implicit*", sorted({*keywords("RHEOLOGY")} - {*keywords("THERMAL_FRICTION")})),
+    "Fix {} viscous implicit cannot be used with {} of pair_coeff": [(FLUID, "*viscous implicit*", keywords("MELTS")), ("pair_sph_bulk_heat", "*viscous implicit*", keywords("MELTS"))],
+    "Fix {} viscous implicit cannot be used with a viscosity that": [(FLUID, "*viscous implicit*", keywords("RHEOLOGY")),
                                                                     (RHEOLOGY, LAWS, "*viscous implicit*")],
     "Fix {} cannot be used in a minimization": [(OPEN, "*fix sph/open*", "minimization")],
     "Fix {} cannot be used with rerun: snapshots have neither": [(OPEN, "*fix sph/open*", "rerun")],
     "Fix {} cannot be used with temp of the pair style": [(OPEN, "*fix sph/open*", "*temp*"), (NOISE, "*temp*", "*fix sph/open*")],
-    "Fix {} cannot be used with {} of pair_coeff": [(OPEN, "*fix sph/open*", keywords("NO_OPEN_ENDS", "RHEOLOGY")), (RHEOLOGY, LAWS, "fix sph/open"),
-                                                    ("pair_sph_bulk_relax", "*vibration*", "Fix sph/open"), ("pair_sph_bulk_heat", "*solute*", "fix sph/open")],
-    "Fix {} energy cannot be used with {} of pair_coeff": [(OPEN, "*energy* cannot", sorted({*keywords("HEAT_CAPACITY")} - {*keywords("NO_OPEN_ENDS", "RHEOLOGY")}))],
+    "Fix {} cannot be used with {} of pair_coeff": [(OPEN, "*fix sph/open*", keywords("NO_OPEN_ENDS")), ("pair_sph_bulk_relax", "*vibration*", "Fix sph/open")],
+    "Fix {} energy cannot be used with {} of pair_coeff": [(OPEN, "*energy* cannot", sorted({*keywords("HEAT_CAPACITY")} - {*keywords("NO_OPEN_ENDS")}))],
     "Fix {} cannot use dynamic group": [(OPEN, "group", "dynamic"), (WALL, "group", "dynamic")],
     "Fix {} cannot be used with atom_modify first": [(OPEN, "*atom_modify first*")],
     "{} cannot be used with fix {}, which changes the box": [(OPEN, "The box must not change")],
@@ -139,8 +137,8 @@ REFUSALS = {
     "Fix {} {} move rigid cannot be used with the thermostat": [(WALL, "*move rigid*", "thermostats")],
     "Pair style {} {} cannot be used with rerun": [(PAIR, "Rerun", ["*eos ideal*", "*temp energy*"]), (NOISE, "*temp energy*", "rerun")],
     "Pair style {} with {} of type {} cannot be used with rerun": [
-        (PAIR, "Rerun", sorted({*keywords("HEAT_CAPACITY")} - {*keywords("EOS_IDEAL")})), (RHEOLOGY, "*arrhenius*", "rerun"), (RHEOLOGY, keywords("NO_RERUN"), "rerun"), (PAIR, "Rerun", keywords("NO_RERUN")),
-        ("pair_sph_bulk_heat", "rerun", ["*conductivity*", "*gruneisen*"])],
+        (PAIR, "Rerun", sorted({*keywords("HEAT_CAPACITY")} - {*keywords("EOS_IDEAL")})), (RHEOLOGY, ["*arrhenius*", "*solid*"], "rerun"), (RHEOLOGY, keywords("NO_RERUN"), "rerun"), (PAIR, "Rerun", keywords("NO_RERUN")),
+        ("pair_sph_bulk_heat", "rerun", ["*conductivity*", "*gruneisen*", "*melt*"])],
     "Pair style {} density continuity cannot be used with rerun": [(PAIR, "Rerun", "*density continuity*")],
     "Pair style {} cannot be combined with another sph/bulk or sph/micropolar": [(PAIR, "can be part of a hybrid style once")],
     "Atom style {} cannot be combined with atom style {}": [(page, ["*sph*", "*rheo*", "*rheo/thermal*", "*mdpd*"], "atom_style hybrid") for page in (PAIR, "atom_style_sph_bulk")],
@@ -158,9 +156,9 @@ REFUSALS = {
     "Pair style {} temp with dim 1 cannot be used with a drag": [(PAIR, "*drag*", "*temp* and *dim 1*")],
     "Pair style {} temp energy cannot be used with kappa": [(NOISE, "*temp energy*", "*kappa*")],
     "Pair style {} temp cannot be used with {} of pair_coeff": [
-        (NOISE, "*temp*", keywords("NO_NOISE")), (NOISE, "*temp T seed*", ["*conductivity*", "*gruneisen*"]), ("pair_sph_bulk_heat", "*temp T seed*", ["*conductivity*", "*gruneisen*"]),
-        ("pair_sph_bulk_relax", "*vibration*", "*temp*"), ("pair_sph_bulk_heat", "*solute*", "*temp*"), (RHEOLOGY, "*arrhenius*", "*temp*")],
-    "Pair_coeff {} of type {} cannot be used with eos {}": [("pair_sph_bulk_relax", "*eos ideal* are required"), ("pair_sph_bulk_heat", "*gruneisen*", "with *eos linear* and *tait*")],
+        (NOISE, "*temp*", keywords("NO_NOISE")), (NOISE, "*temp T seed*", ["*conductivity*", "*gruneisen*"]), ("pair_sph_bulk_heat", "*temp T seed*", ["*conductivity*", "*gruneisen*", "*melt*"]),
+        ("pair_sph_bulk_relax", "*vibration*", "*temp*"), ("pair_sph_bulk_heat", "*solute*", "*temp*"), (RHEOLOGY, ["*arrhenius*", "*solid*"], "*temp*")],
+    "Pair_coeff {} of type {} cannot be used with eos {}": [("pair_sph_bulk_relax", "*eos ideal* are required"), ("pair_sph_bulk_heat", "*gruneisen*", "with *eos linear* and *tait*"), ("pair_sph_bulk_heat", "*melt*", "*eos ideal*")],
     "cannot be used with limit of pair_style": [(RHEOLOGY, LAWS, "*limit*")],
     "cannot be used with temp of pair_style": [(RHEOLOGY, LAWS, "*temp*"), (NOISE, "*temp*", LAWS)],
     "cannot be used with a mu of the unlike types": [(RHEOLOGY, LAWS, "a *mu* of unlike types")],

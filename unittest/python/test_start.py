@@ -296,7 +296,7 @@ write_dump all custom x.dump id mass modify format float %.17g
 STAGES = {("gravity",): "densities pressures pairs forces",
           ("implicit", "heat"): "guess densities pressures pairs forces velocities aside densities pressures pairs forces temperatures "
                                 "restored densities pressures pairs forces flows totals",
-          ("rkl2", "thinning"): "guess densities shear rates pressures pairs forces velocities densities kept rates pressures pairs forces totals",
+          ("rkl2", "thinning"): "guess densities shear rates pressures pairs forces velocities densities pressures pairs forces totals",
           ("walls", "noise", "limit"): "numbers densities wall volumes bound pressures walls noise pairs wall friction forces repulsion",
           ("walls", "warm"): "numbers densities wall volumes pressures walls wall energies noise pairs wall friction forces repulsion totals work",
           ("surface", "walls"): "densities wall volumes pressures walls pairs forces repulsion diffusion diffusion heat",
