@@ -121,8 +121,7 @@ namespace SPHDissipation {
   {
     const ParticleRows rows = this->space.rows();
     this->space.for_each(
-        "sph:viscosity", rows.nlocal,
-        SPH_LAMBDA(int i) { rows.viscosity[i] = rows.shear_mu[i]; });
+        "sph:viscosity", rows.nlocal, SPH_LAMBDA(int i) { rows.viscosity[i] = rows.shear_mu[i]; });
     this->space.forward({{rows.viscosity, 1, 1}});
   }
 
