@@ -47,7 +47,7 @@ PATCHES = (
     ("core", ()),
     ("fluid", ("atom sph/bulk", "atom sph/micropolar", "pair sph/bulk", "pair sph/micropolar", "fix sph/bulk", "fix sph/micropolar",
                "fix sph/torque", "compute sph/angmom", "compute sph/dissipation", "compute sph/energy")),
-    ("walls", ("fix sph/wall", "fix sph/dt")),
+    ("walls", ("fix sph/wall", "fix sph/dt", "compute sph/gauge")),
     ("noise", ("compute sph/temp", "KOKKOS")),
     ("open", ("fix sph/open", "fix sph/refine", "compute sph/grid", "compute sph/spectrum")),
 )
@@ -74,6 +74,7 @@ STYLES = {
         "sph/angmom": "angular momentum of an SPH fluid, orbital and spin",
         "sph/dissipation": "power dissipated by an SPH fluid, by channel",
         "sph/energy": "kinetic, elastic, and internal energy of an SPH fluid",
+        "sph/gauge": "pressures and levels of an SPH fluid at points",
         "sph/grid": "fields of an SPH fluid on a grid",
         "sph/spectrum": "spectra of the solenoidal and dilatational motion of an SPH fluid",
         "sph/temp": "translational and rotational temperature of an SPH fluid",

@@ -193,6 +193,8 @@ namespace SPHDissipation {
     int not_fluid() const;            // bits of the groups of all boundaries and open zones
     bool is_boundary(int i) const;    // owned or ghost particle
     bool has_type(int type) const;    // its particles are of this fluid
+    // Return the function with the pressure of owned particle i, with its states
+    std::function<double(int i)> pressures() const;
     // Return the function with the speed of sound of owned particle i, as it is now, at another density
     std::function<double(int i, double rho)> sound() const;
     int dimension() const { return dim; }    // of the kernel
@@ -304,7 +306,6 @@ namespace SPHDissipation {
     double smallest_inertia() const;
     double lightest_fluid() const;
     std::string skin_text(const CoeffTable &) const;
-    std::function<double(int i)> pressures() const;    // of owned particle i, with its states
     void announce_noise(double rate);
   };
 

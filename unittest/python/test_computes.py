@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 import pytest
 
-from helpers import INTEGRATE, disordered, dump, fluid, header, relative, undump
+from helpers import INTEGRATE, SUPPORT, disordered, dump, fluid, header, relative, undump
 
 THERMO = "thermo_modify norm no format float %.17g\n"
 VISCOUS = {"mg": "shear mg bulk none", "density": "shear none bulk density", "both": "shear mg/fr bulk density",
@@ -63,6 +63,63 @@ def test_energy(lammps, ranks):
         assert table[f"{name}[1]"][k] == pytest.approx(kinetic, rel=1e-13)
         assert table[f"{name}[2]"][k] == pytest.approx(internal, rel=1e-13)
         assert table[name][k] == pytest.approx(kinetic + internal, rel=1e-13)
+
+
+PLACES = {2: ((1.6, 11.9), (6.0, 2.9)), 3: ((1.6, 3.1, 5.8), (3.6, 2.7, 1.4))}
+
+
+def wendland(n, r, support):
+    q = np.minimum(r / support, 1.0)
+    return {1: 3 / 2, 2: 7 / np.pi, 3: 21 / (2 * np.pi)}[n] * (1 - q)**4 * (1 + 4 * q) / support**n
+
+
+@pytest.mark.parametrize("dim, ranks", [(2, 1), (2, 2), (3, 1), (3, 4)])
+def test_gauges(lammps, dim, ranks):
+    """Pressure and level of a group, next to a wall and across a periodic boundary, against sums over the dumped fields."""
+    box = disordered(dim, CELLS[dim], ntypes=2)
+    box.write(lammps.path("box.data"))
+    places = [" ".join(map(str, (*place, 0.0)[:3])) for place in PLACES[dim]]
+    level = "5.3 NULL 0.0" if dim == 2 else "4.1 5.9 NULL"
+    gauges = f"sph/gauge pressure {places[0]} level {level} pressure {places[1]}"
+    text = (header(dim) + "read_data box.data\n" + fluid(dim, "kernel wendland/c2") + "region left block INF 1.5 INF INF INF INF\n"
+            "group wall region left\ngroup free subtract all wall\ngroup red type 1\ngroup some subtract red wall\n"
+            f"fix W wall sph/wall\nfix I free sph/bulk\ntimestep 1e-4\ncompute A all {gauges}\ncompute S some {gauges}\n"
+            "thermo_style custom step c_A[*] c_S[*]\n" + THERMO + dump("out.dump") + "run 0\n")
+    (table,) = lammps(text, ranks=ranks).thermo()
+    frame = lammps.frame("out.dump")
+    length, support = (box.hi - box.lo)[:dim], SUPPORT[dim]
+
+    def distances(place, axes):
+        r = (frame["x"][:, :dim] - np.array(place))[:, axes]
+        return np.linalg.norm(r - length[axes] * np.round(r / length[axes]), axis=1)
+
+    wall = box.x[:, 0] < 1.5
+    assert wall.sum() > CELLS[dim]
+    for name, fluid_of in (("A", ~wall), ("S", ~wall & (box.type == 1))):
+        for k, place in ((1, PLACES[dim][0]), (3, PLACES[dim][1])):
+            W = wendland(dim, distances(place, range(dim)), support)
+            pressure = 100.0 * (frame["rho"] - 1.0)
+            there = 1 - (box.mass * W)[wall].sum()
+            assert (there < 0.9) == (k == 1)
+            assert table[f"c_{name}[{k}]"][0] == pytest.approx((frame["vol"] * W * pressure)[fluid_of].sum() / there, rel=1e-11)
+        axes, place = ([0], (5.3, 0.0)) if dim == 2 else ([0, 1], (4.1, 5.9, 0.0))
+        W = wendland(dim - 1, distances(place, axes), support)
+        assert table[f"c_{name}[2]"][0] == pytest.approx((frame["vol"] * W)[fluid_of].sum(), rel=1e-12)
+
+
+@pytest.mark.parametrize("dim, words, message", [
+    (2, "", "needs at least one pressure or level"), (2, "pressure 1.0 2.0", "missing argument"),
+    (2, "pressure 1.0 2.0 0.5", "pressure: z must be 0 in 2d"), (2, "pressure 1.0 NULL 0.0", "Expected floating point parameter"),
+    (2, "level 1.0 2.0 0.0", "NULL must stand for the coordinate along the level"),
+    (2, "level 1.0 2.0 NULL", "NULL must stand for one coordinate of the box"), (3, "level 1.0 NULL NULL", "NULL must stand for one coordinate"),
+    (3, "front 1.0 0.0 0.0", "Unknown compute sph/gauge keyword: front"),
+    (3, "level 1.0 1.0 NULL\nvariable h equal c_A[1]\nrun 0\ndelete_atoms random count 1 yes all NULL 4711\nprint $h", "use run 0 first"),
+    (3, "level 1.0 1.0 NULL\npair_style none\nrun 0", "requires pair style sph/bulk or sph/micropolar"),
+])
+def test_gauge_errors(lammps, dim, words, message):
+    disordered(dim, CELLS[dim]).write(lammps.path("box.data"))
+    result = lammps(header(dim) + "read_data box.data\n" + fluid(dim) + INTEGRATE + f"compute A all sph/gauge {words}\n", check=False)
+    assert result.code == 1 and message in " ".join(result.error.split()), result.output[-2000:]
 
 
 FLUIDS = """# fluids of a test   UNITS: lj

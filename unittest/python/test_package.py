@@ -103,9 +103,9 @@ def test_gauges(lammps):
     text = re.sub(r"ave/time 5 4 20", "ave/time 1 1 20", text).replace("thermo          100", "thermo 20").replace("run             $(round(v_end/dt))", "run 100")
     (log,) = lammps(text).thermo()
     found = sph.series(lammps.path("gauges.txt"))
-    assert list(found) == ["TimeStep", "v_t", "v_front", "c_level", "v_tap", "v_mean", "c_thrust"] and list(found["TimeStep"]) == list(log["Step"])
-    for name in ("v_front", "c_level", "v_mean", "c_thrust"):
-        np.testing.assert_allclose(found[name], log[name], rtol=1e-5, atol=1e-12)
+    assert list(found) == ["step", "t", "front", "level", "tap", "pressure", "thrust"] and list(found["step"]) == list(log["Step"])
+    for name, column in (("front", "v_front"), ("level", "c_gauge[2]"), ("pressure", "c_gauge[1]"), ("thrust", "c_thrust")):
+        np.testing.assert_allclose(found[name], log[column], rtol=1e-5, atol=1e-12)
 
 
 # what makes it short; figures; lines of results; relative errors of those stored, and of the short one
