@@ -475,7 +475,12 @@ void FixSPHBulk::setup_pre_exchange()
   const Particles particles(atom, fields());
   const TimeStep step = time_step();
   double *const vol_rate_before = fields().vol_rate_before;
+  const int bodies = (fluid && first_instance) ? fluid->boundary->bits_of_elastic_bodies() : 0;
   for (int i = 0; i < atom->nlocal; i++) {
+    if (!continued && (atom->mask[i] & bodies)) {
+      step.follow(particles, i);
+      desph_before[i] = 0.0;
+    }
     if (!(atom->mask[i] & groupbit)) continue;
     if (!continued) {
       step.follow(particles, i);
@@ -516,6 +521,7 @@ Traced FixSPHBulk::traced(int i) const
   const int mask = atom->mask[i];
   if (mask & integrated_groups) return Traced::ALL;
   if (!fluid) return Traced::NOTHING;
+  if (mask & fluid->boundary->bits_of_elastic_bodies()) return Traced::ALL;
   if (fluid->is_boundary(i)) return Traced::REST;
   return (fluid->has_type(atom->type[i]) && !(mask & fluid->not_fluid())) ? Traced::ALL
                                                                           : Traced::NOTHING;

@@ -86,9 +86,10 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
     for (const char *one : {"velocity", "rotate", "slip", "spin"})
       if (key.name() == one && others.empty()) others = one;
     if (key.is("move")) {
-      const bool rigid = (strcmp(key.word(), "rigid") == 0);
-      bodies.reset(rigid ? new Bodies(lmp, groupbit, style, id) : nullptr);
-      move = rigid || utils::logical(FLERR, key.word(), false, lmp);
+      elastic = (strcmp(key.word(), "elastic") == 0);
+      const bool moved = elastic || strcmp(key.word(), "rigid") == 0;
+      bodies.reset(moved ? new Bodies(lmp, groupbit, style, id) : nullptr);
+      move = moved || utils::logical(FLERR, key.word(), false, lmp);
     }
     if (key.is("body")) {
       split_given = true;
@@ -130,12 +131,13 @@ FixSPHWall::FixSPHWall(LAMMPS *lmp, int narg, char **arg) :
   if (group->dynamic[igroup])
     error->all(FLERR, "Fix {} cannot use dynamic group {}", style, group->names[igroup]);
 
-  if (split_given && !bodies) error->all(FLERR, "Fix {} body requires move rigid", style);
-  if (law && !bodies) error->all(FLERR, "Fix {} contact requires move rigid", style);
+  if (split_given && !bodies)
+    error->all(FLERR, "Fix {} body requires move rigid or move elastic", style);
+  if (law && !(bodies && !elastic)) error->all(FLERR, "Fix {} contact requires move rigid", style);
   if (bodies) read_bodies(others);
 
   time_integrate = bodies ? 0 : 1;
-  restart_global = motion->rotates() || gives_heat() || bodies;
+  restart_global = motion->rotates() || gives_heat() || (bodies && !elastic);
   create_attribute = 1;
   vector_flag = peratom_flag = 1;
   size_peratom_cols = 6;
@@ -200,6 +202,7 @@ void FixSPHWall::init()
                style);
 
   if (bodies) check_bodies(fluid);
+  if (elastic) check_integrator();
   motion->init();
   if (!heat_value->init(lmp, fmt::format("fix {} heat", style), true))
     error->all(FLERR, "Variable {} for fix {} heat is neither of equal style nor of atom style",
@@ -213,7 +216,7 @@ void FixSPHWall::init()
 
   exclude_walls();
   if (bodies)
-    bodies->init(by_molecule, check_movers());
+    bodies->init(by_molecule, !elastic && check_movers());
   else
     check_particles();
   const std::set<int> felt = interacting_types(fluid);
@@ -308,6 +311,7 @@ void FixSPHWall::check_heat() const
 
 void FixSPHWall::setup_pre_exchange()
 {
+  if (elastic) return;    // fix sph/bulk begins a run for them, as for the fluid
   if (bodies) {
     const bool same = bodies->start(true);
     if (!same) {
@@ -329,11 +333,13 @@ void FixSPHWall::setup_pre_exchange()
 void FixSPHWall::setup(int vflag)
 {
   if (!checked) check_thickness(find_fluid(force));
-  if (!checked) check_pieces(find_fluid(force));
+  if (!checked && !elastic) check_pieces(find_fluid(force));
   if (!checked && bodies) check_tension(find_fluid(force));
   checked = true;
-  if (bodies && find_fluid(force)->viscous->active()) check_masses();
-  if (bodies) note_forces();
+  if (bodies && !elastic) {
+    if (find_fluid(force)->viscous->active()) check_masses();
+    note_forces();
+  }
   post_force(vflag);
 }
 
@@ -369,11 +375,20 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Take over the motion of bodies, which another fix has moved.
+   Take over the motion of bodies, which another fix has moved: of particles that move one by one from their last forces.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::post_integrate()
 {
+  if (elastic) {
+    const double ahead = find_fluid(force)->viscous->choice().extrapolation(noise);
+    const double dtf = 0.5 * ahead * update->dt * force->ftm2v;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (atom->mask[i] & groupbit)
+        for (int d = 0; d < 3; d++)
+          atom->vest[i][d] = atom->v[i][d] + dtf / atom->rmass[i] * atom->f[i][d];
+    return;
+  }
   bodies->advance(find_fluid(force)->viscous->choice().extrapolation(noise));
   add_rest_of_heat();
   set_acting();
@@ -395,6 +410,7 @@ void FixSPHWall::final_integrate()
 
 void FixSPHWall::end_of_step()
 {
+  if (elastic) return;
   bodies->end_step();
   note_forces();
   add_rest_of_heat();
@@ -430,7 +446,7 @@ int FixSPHWall::number_bodies(int first, double *body)
 
 RigidMotions *FixSPHWall::rigid_motions()
 {
-  return bodies.get();
+  return elastic ? nullptr : bodies.get();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -467,6 +483,7 @@ bool FixSPHWall::turns_surface(bool before) const
 
 void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool before)
 {
+  if (elastic) return;    // surface of the last neighbor list; the friction needs no omega
   const WallVelocity now = motion->velocity();
   const bool turns = bodies ? before : turns_surface(before);
   const WallStep step = motion->last_step();
@@ -667,8 +684,9 @@ void FixSPHWall::write_restart(FILE *fp)
   MPI_Reduce(&heat_given, &state[HEAT], 1, MPI_DOUBLE, MPI_SUM, 0, world);
   if (comm->me != 0) return;
   motion->pack_restart(&state[MOTION]);
-  state[NBODIES] = bodies ? bodies->size() : 0;
-  if (bodies) bodies->pack_restart(state);
+  const bool rigid = bodies && !elastic;
+  state[NBODIES] = rigid ? bodies->size() : 0;
+  if (rigid) bodies->pack_restart(state);
   const int size = static_cast<int>(state.size() * sizeof(double));
   fwrite(&size, sizeof(int), 1, fp);
   fwrite(state.data(), sizeof(double), state.size(), fp);
@@ -681,7 +699,7 @@ void FixSPHWall::restart(char *buf)
   const auto *const state = reinterpret_cast<double *>(buf);
   check_format(lmp, this, state[0], FORMAT);
   motion->restart(state + MOTION);
-  if (bodies) bodies->restart(state + NSTATE, static_cast<int>(state[NBODIES]));
+  if (bodies && !elastic) bodies->restart(state + NSTATE, static_cast<int>(state[NBODIES]));
   if (gives_heat() && comm->me == 0) heat_given = state[HEAT];
 }
 

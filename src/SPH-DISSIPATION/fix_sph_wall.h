@@ -78,6 +78,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
                     const SPHDissipation::BoundarySum *) override;
   bool has_symmetric_friction() const override { return noise || bodies; }
   bool has_bodies() const override { return bodies != nullptr; }
+  bool has_elastic_bodies() const override { return elastic; }
   bool has_mean_pressure() const override { return !bodies && !noise; }
   int number_bodies(int, double *) override;
   SPHDissipation::RigidMotions *rigid_motions() override;
@@ -91,6 +92,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   const std::unique_ptr<SPHDissipation::WallCondition> condition;
   bool move = true;
   std::unique_ptr<SPHDissipation::Bodies> bodies;     // which the fluid moves; nullptr: a wall
+  bool elastic = false;                               // bodies whose particles move one by one
   std::unique_ptr<SPHDissipation::ContactLaw> law;    // of the contact of bodies; nullptr: none
   bool noise = false;                                 // the fluid has thermal noise
   bool checked = false;    // setup() has run, and has checked the thickness
@@ -122,6 +124,8 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;
   bool check_movers() const;
+  void check_integrator() const;
+  const char *kind() const { return elastic ? "elastic" : "rigid"; }    // of move
   void check_masses() const;
   void check_tension(const SPHDissipation::Fluid *) const;
   void check_pieces(const SPHDissipation::Fluid *) const;

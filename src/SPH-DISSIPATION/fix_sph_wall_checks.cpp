@@ -31,12 +31,14 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
+#include "sph_dissipation_viscous.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 #include <set>
 #include <vector>
@@ -115,14 +117,15 @@ void FixSPHWall::check_particles() const
 }
 
 /* ----------------------------------------------------------------------
-   Check the keywords beside move rigid; others = one that bodies do not have.
+   Check the keywords beside move rigid and elastic; others = one that bodies do not have.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::read_bodies(const std::string &others)
 {
-  if (!others.empty()) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, others);
+  if (!others.empty())
+    error->all(FLERR, "Fix {} move {} cannot be used with {}", style, kind(), others);
   if (utils::strmatch(style, "/kk"))
-    error->all(FLERR, "Fix {} move rigid requires the style without suffix, sph/wall", style);
+    error->all(FLERR, "Fix {} move {} requires the style without suffix, sph/wall", style, kind());
   if (by_molecule && !atom->molecule_flag)
     error->all(FLERR, "Fix {} body molecule requires molecule IDs, fix property/atom mol", style);
 }
@@ -135,7 +138,7 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
 {
   const Settings &choice = fluid->model->choice;
   auto refuse = [&](bool is_used, const std::string &what) {
-    if (is_used) error->all(FLERR, "Fix {} move rigid cannot be used with {}", style, what);
+    if (is_used) error->all(FLERR, "Fix {} move {} cannot be used with {}", style, kind(), what);
   };
   refuse(update->whichflag == 2, "a minimization");
   for (int d = 0; d < 3; d++)
@@ -159,6 +162,36 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
         style);
   refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
   refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");
+  refuse(elastic && fluid->viscous->active(), "viscous rkl2 or implicit of fix sph/bulk");
+}
+
+/* ----------------------------------------------------------------------
+   Check that one fix nve moves each particle of elastic bodies.
+------------------------------------------------------------------------- */
+
+void FixSPHWall::check_integrator() const
+{
+  if (group->count(igroup) == 0)
+    error->all(FLERR, "Fix {} group {} has no particles", style, group->names[igroup]);
+  std::vector<int> movers(atom->nlocal, 0);
+  for (const auto &other : modify->get_fix_list()) {
+    if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
+    const bool nve = !strcmp(other->style, "nve") || !strcmp(other->style, "nve/omp");
+    const auto shared = first_particle(lmp, [&](int i) {
+      const bool both = (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
+      if (both && nve) movers[i]++;
+      return both && !nve;
+    });
+    if (!shared.empty())
+      error->all(FLERR,
+                 "Fix {} {} move elastic: {} of a body is moved by fix {} {}, not by fix nve", id,
+                 style, shared, other->id, other->style);
+  }
+  const auto wrong = first_particle(lmp, [&](int i) {
+    return (atom->mask[i] & groupbit) && movers[i] != 1;
+  });
+  if (!wrong.empty())
+    error->all(FLERR, "Fix {} {} move elastic: {} must be moved by one fix nve", id, style, wrong);
 }
 
 /* ----------------------------------------------------------------------
@@ -322,9 +355,9 @@ void FixSPHWall::check_tension(const Fluid *fluid) const
   });
   if (dry && comm->me == 0)
     error->warning(FLERR,
-                   "Fix {} {} move rigid: {} particles of bodies are dry; with tension yes of the "
+                   "Fix {} {} move {}: {} particles of bodies are dry; with tension yes of the "
                    "pair style they pull on fluid that comes near: use tension no",
-                   style, id, dry);
+                   style, id, kind(), dry);
 }
 
 /* ----------------------------------------------------------------------

@@ -96,6 +96,10 @@ namespace SPHDissipation {
     // the equation of state, see BoundaryStage::set_frozen()
 
     virtual bool has_bodies() const { return false; }
+    virtual bool has_elastic_bodies() const
+    {
+      return false;
+    }    // each particle has its own velocity
     virtual int number_bodies(int first, double * /*body*/) { return first; }
     virtual RigidMotions *rigid_motions() { return nullptr; }
     virtual const ContactLaw *contact() const { return nullptr; }    // of the bodies; nullptr: none

@@ -22,6 +22,7 @@
 #include "neighbor.h"
 #include "sph_dissipation_cells.h"
 #include "sph_dissipation_exchange.h"
+#include "sph_dissipation_fields.h"
 #include "sph_dissipation_particle_terms.h"
 #include "update.h"
 
@@ -57,11 +58,12 @@ void BoundaryStage::remove(Boundary *boundary)
 
 void BoundaryStage::find_bits()
 {
-  group_bits = symmetric_bits = body_bits = mean_bits = 0;
+  group_bits = symmetric_bits = body_bits = elastic_bits = mean_bits = 0;
   for (const auto &one : boundaries) {
     group_bits |= one->boundary_bit();
     if (one->has_symmetric_friction()) symmetric_bits |= one->boundary_bit();
     if (one->has_bodies()) body_bits |= one->boundary_bit();
+    if (one->has_elastic_bodies()) elastic_bits |= one->boundary_bit();
     if (one->has_mean_pressure()) mean_bits |= one->boundary_bit();
   }
   sum_bits = group_bits & ~body_bits;
@@ -158,7 +160,7 @@ void BoundaryStage::find_bodies()
 
 /* ----------------------------------------------------------------------
    Sum the number density of each body particle over the other particles of its body: neighbor lists do not have these pairs.
-   The sums are constant until the next neighbor list.
+   The sums are constant until the next neighbor list, those of an elastic body longer.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::sum_bodies()
@@ -181,6 +183,33 @@ void BoundaryStage::sum_bodies()
     });
     return 0;
   });
+  if (elastic_bits && !par.continuity) keep_first_shape();
+}
+
+/* ----------------------------------------------------------------------
+   The sums of an elastic body are those of its first shape, in which they are stored as a filled part of the support, with
+   the particle itself: then strains have no pressure.  Density continuity keeps them in rho and rho_sum.
+------------------------------------------------------------------------- */
+
+void BoundaryStage::keep_first_shape()
+{
+  const Parameters &par = engine.parameters();
+  double *const filled_part = Fields::of(atom)->vol_support;
+  for (int i = 0; i < atom->nlocal; i++) {
+    if (!(atom->mask[i] & elastic_bits)) continue;
+    const double own = engine.weight(i) * own_term();
+    const double whole = par.type[atom->type[i]].eos.rho0 * engine.weight(i) / atom->rmass[i];
+    if (!(filled_part[i] > 0.0)) filled_part[i] = (own_numden[i] + own) / whole;
+    own_numden[i] = filled_part[i] * whole - own;
+  }
+}
+
+double BoundaryStage::own_term() const
+{
+  const Parameters &par = engine.parameters();
+  return par.weight_norm * with_kernel(par.kernel, [](auto k) {
+           return k.shape(0.0);
+         });
 }
 
 /* ----------------------------------------------------------------------
@@ -271,10 +300,7 @@ double BoundaryStage::begin_frozen(int i, const double *gravity)
   fluid.pressure -= fluid.zeta_term;
   double p = wall_pressure(fluid, gravity, REST);
   if (!par.tension) p = std::max(p, 0.0);
-  const double self = par.weight_norm * with_kernel(par.kernel, [](auto k) {
-                        return k.shape(0.0);
-                      });
-  const double own = atom->rmass[i] / eos.rho0 * (own_numden[i] / engine.weight(i) + self);
+  const double own = atom->rmass[i] / eos.rho0 * (own_numden[i] / engine.weight(i) + own_term());
   const double wet = fluid.weight / (1.0 - own);
   const double part = std::min(std::max((wet - EMPTY) / (FULL - EMPTY), 0.0), 1.0);
   const double rho = density_at(par.eos, eos, p, 0.0);

@@ -47,6 +47,7 @@ namespace SPHDissipation {
     bool has_bodies() const { return body_bits != 0; }
     bool has_contact() const;    // any body has contact forces
     int bits_of_bodies() const { return body_bits; }
+    int bits_of_elastic_bodies() const { return elastic_bits; }
     bool has_mean_pressure() const { return mean_bits != 0; }    // any boundary
     bool conducts() const    // boundaries take part in the conduction of heat
     {
@@ -151,7 +152,7 @@ namespace SPHDissipation {
     BoundaryPairs pairs;        // of this step
     const std::string style;    // of the pair style, for messages
     std::vector<Boundary *> boundaries;
-    int group_bits = 0, symmetric_bits = 0, body_bits = 0, mean_bits = 0;
+    int group_bits = 0, symmetric_bits = 0, body_bits = 0, elastic_bits = 0, mean_bits = 0;
     int sum_bits = 0;    // of the boundaries that need sums over the fluid
 
     int rows_bits = 0;    // group_bits when the rows of the pairs were found
@@ -171,12 +172,14 @@ namespace SPHDissipation {
     std::vector<SurfacePairs> surface_pairs;    // pairs with symmetric friction, of each thread
 
     // body_of: number of the body of each owned and ghost atom, 0: none.  own_numden: number density of each owned atom from
-    // the other particles of its body.  Both empty without bodies
+    // the other particles of its body, of an elastic body in its first shape.  Both empty without bodies
 
     std::vector<double> body_of, own_numden;
 
     void find_bodies();
     void sum_bodies();
+    void keep_first_shape();
+    double own_term() const;    // shape of the kernel at 0 times its norm
     bool warned_of_contact = false;
     void warn_of_contact();
     double begin_frozen(int i, const double *gravity);

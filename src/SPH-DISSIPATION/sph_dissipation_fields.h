@@ -75,7 +75,8 @@ namespace SPHDissipation {
 
     // Density continuity.  rho_sum: the sum in rho at the last forces, negative for bodies, see ParticleRows::add_offset();
     // 0: no sum yet (a new particle also has rho = 0, which stands for rho0).  Last evaluation of the diffusion: rates of
-    // volume and internal energy, filled part of the support (1 inside of the fluid); rate of the volume before
+    // volume and internal energy, filled part of the support (1 inside of the fluid); rate of the volume before.  With
+    // density sum, vol_support is the part that an elastic body has filled in its first shape (0: not known)
     double *rho_sum = nullptr, *vol_rate = nullptr, *vol_rate_before = nullptr;
     double *vol_heat = nullptr, *vol_support = nullptr;
     // rate of shear and mu at the last forces, if any mu is not constant; else 0
