@@ -41,7 +41,6 @@ std::string NeighborSearch::left_to_lammps() const
   if (neighbor->style == Neighbor::NSQ) return "neighbor style nsq";
   if (neighbor->style != Neighbor::BIN) return "neighbor style multi";
   if (neighbor->includegroup) return "neigh_modify include";
-  if (atom->molecular != Atom::ATOMIC) return "an atom style with bonds";
   return "";
 }
 

@@ -149,14 +149,21 @@ def test_boxes_and_settings_change(lammps, ranks, style):
     assert relative(ends[0]["f"] - ends[1]["f"], ends[1]["f"]) < 1e-9
 
 
-def test_bonds(lammps):
-    """Where LAMMPS marks bonded neighbors, it builds the list."""
-    result = lammps(header(2, style="hybrid sph/bulk bond") + "lattice sq 1.0\nregion box block 0 8 0 8 -0.5 0.5\n"
-                    "create_box 1 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 2\ncreate_atoms 1 box\nset group all mass 1.0\n"
-                    "bond_style zero\nbond_coeff 1\ncreate_bonds single/bond 1 5 6\nspecial_bonds lj/coul 1 1 1\n" + fluid(2) + INTEGRATE + "run 1\n", check=False)
-    if "MOLECULE package" in result.error:
-        pytest.skip("no package MOLECULE")
-    assert result.code == 0 and "LAMMPS builds the neighbor list because of an atom style with bonds" in result.log
+@pytest.mark.parametrize("special", ["lj/coul 1 1 1", "lj 1 1 1 coul 0 0 0.5"])
+def test_bonds(lammps, special):
+    """Bonded particles are neighbors as all others, whether LAMMPS marks them or not."""
+    found = []
+    for style in ("bin", "nsq"):
+        result = lammps(header(2, style="hybrid sph/bulk bond") + "lattice sq 1.0\nregion box block 0 8 0 8 -0.5 0.5\n"
+                        "create_box 1 box bond/types 1 extra/bond/per/atom 1 extra/special/per/atom 2\ncreate_atoms 1 box\nset group all mass 1.0\n"
+                        "displace_atoms all random 0.2 0.2 0.0 7\nvelocity all create 0.1 8 loop geom\n"
+                        f"bond_style zero\nbond_coeff 1\ncreate_bonds single/bond 1 5 6\nspecial_bonds {special}\nneighbor 0.5 {style}\n"
+                        + fluid(2) + INTEGRATE + dump("out.dump", 1) + "run 1\n", check=False)
+        if "MOLECULE package" in result.error:
+            pytest.skip("no package MOLECULE")
+        assert result.code == 0 and ("LAMMPS builds the neighbor list" in result.log) == (style == "nsq")
+        found.append(lammps.frame("out.dump")["f"])
+    assert relative(found[0] - found[1], found[1]) < 1e-12
 
 
 @pytest.mark.parametrize("ranks", [1, 4])
