@@ -487,16 +487,18 @@ def test_floating_boxes_on_ranks_and_after_a_restart(lammps):
             assert np.abs(frame[what] - want[what]).max() < 1e-10, (name, what)
 
 
-def dense_friction(x, body, mu, zeta, support, least=0.05):
+def dense_friction(x, body, mu, zeta, support, least=0.05, rigid=True):
     """Matrix of the friction of fluid and body, of unknowns v of each fluid particle, V, Omega of the body, from the formulas of the
-    pages: forces are minus this matrix times the velocities.  Also the matrix of the map from the unknowns to the particles."""
+    pages: forces are minus this matrix times the velocities.  Also the matrix of the map from the unknowns to the particles.
+    rigid False: unknowns are the velocities of all particles."""
     x, body = np.array(x, dtype=float), np.array(body)
     fluid = np.flatnonzero(~body)
     center = x[body].mean(axis=0)
-    n = 2 * len(fluid) + 3
+    moves = fluid if rigid else np.arange(len(x))    # one by one
+    n = 2 * len(moves) + 3 * rigid
     motion = np.zeros((len(x), 2, n))
-    motion[fluid, 0, 2 * np.arange(len(fluid))] = motion[fluid, 1, 2 * np.arange(len(fluid)) + 1] = 1.0
-    for w in np.flatnonzero(body):
+    motion[moves, 0, 2 * np.arange(len(moves))] = motion[moves, 1, 2 * np.arange(len(moves)) + 1] = 1.0
+    for w in np.flatnonzero(body) if rigid else []:
         motion[w, 0, n - 3] = motion[w, 1, n - 2] = 1.0
         motion[w, :, n - 1] = cross_of(x[w] - center, 1.0)
     r = x[:, None] - x
