@@ -311,7 +311,12 @@ void FixSPHWall::check_heat() const
 
 void FixSPHWall::setup_pre_exchange()
 {
-  if (elastic) return;    // fix sph/bulk begins a run for them, as for the fluid
+  if (elastic) {    // fix sph/bulk begins the run for them, as for the fluid
+    if (find_fluid(force)->viscous->active())
+      error->all(FLERR, "Fix {} move {} cannot be used with {}", style, kind(),
+                 "viscous rkl2 or implicit of fix sph/bulk");
+    return;
+  }
   if (bodies) {
     const bool same = bodies->start(true);
     if (!same) {

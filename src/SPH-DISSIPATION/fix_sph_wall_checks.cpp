@@ -31,7 +31,6 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_value.h"
-#include "sph_dissipation_viscous.h"
 #include "sph_dissipation_wall_motion.h"
 #include "sph_dissipation_wall_terms.h"
 #include "update.h"
@@ -162,7 +161,6 @@ void FixSPHWall::check_bodies(const Fluid *fluid) const
         style);
   refuse(!modify->get_fix_by_style("^sph/open").empty(), "fix sph/open");
   refuse(!modify->get_fix_by_style("^sph/torque").empty(), "fix sph/torque");
-  refuse(elastic && fluid->viscous->active(), "viscous rkl2 or implicit of fix sph/bulk");
 }
 
 /* ----------------------------------------------------------------------

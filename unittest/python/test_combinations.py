@@ -129,6 +129,8 @@ FEATURES = {
     "bodies": Feature(disc("rigid single"), disc("rigid group 1 disc"), refused=NOT_WITH_BODIES),
     "hot_bodies": Feature(disc("rigid single", "heat temp v_hot"), disc("rigid group 1 disc", "heat temp 0.05[T]"),
                           refused={**NOT_WITH_BODIES, "noise": "conductivity"}),
+    "elastic": Feature(Lines(particles=("disc",), fixes=("fix turn disc nve", "fix disc disc sph/wall move elastic"), force=("-f_disc[{k}]",)),
+                       refused={**NOT_WITH_BODIES, "rkl2": "viscous", "implicit": "viscous"}),
     "contact": Feature(halves(), refused={**NOT_WITH_BODIES, "noise": "restitution"}),
     "open": Feature(zones(1, "pressure 1.0[p]"), zones(3, "density 1.01[r]"), not_plain_with=("gas", "heat"), refused={"noise": "temp", "rerun": "rerun"}),
     "split": Feature(Lines(pair=("volume mass",), fixes=(f"variable t atom 1.0[ll]*({TARGET})", "fix R fluid sph/refine 5 volume v_t")),
@@ -143,7 +145,7 @@ FEATURES = {
                               between=("timestep 0.003[t]", "run 0", "timestep {timestep}")), Lines(), effect=False,
                         not_plain_with=(*LARGE, "warm")),
     "short_runs": Feature(Lines(second="run 1\n" * 5), Lines(), effect=False,
-                          not_plain_with=("open",)),  # every run builds a neighbor list, and then rows of zones are continued
+                          not_plain_with=("open", "elastic")),  # every run builds a neighbor list, with which rows of zones are continued, and surfaces found
     "pre_no": Feature(Lines(second="run 2\nrun 3 pre no"), Lines(), effect=False),
     "reset": Feature(Lines(between=("reset_timestep 0",)), Lines(), effect=False),
     "reset_ahead": Feature(Lines(between=("reset_timestep 1000",)), Lines(), effect=False, not_plain_with=("noise", "warm")),
@@ -188,7 +190,7 @@ FEATURES = {
                     refused={"open": "open", "rkl2": "temp", "implicit": "temp", "limit": "kappa", "shift": "shift", "drag": "drag"}),
     "idle_spin": Feature(Lines(style="sph/micropolar", spin="0 0 0"), Lines(), not_plain_with=("split",), effect=False),
 }
-NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), ("bodies", "hot_bodies"), ("bodies", "contact"), ("hot_bodies", "contact"), ("walls", "dense_walls")}  # two values of the same
+NEVER = {("rkl2", "implicit"), ("short_runs", "pre_no"), ("reset", "reset_ahead"), ("noise", "warm"), ("spin", "idle_spin"), ("relax", "idle_room"), *itertools.combinations(("bodies", "hot_bodies", "elastic", "contact"), 2), ("walls", "dense_walls")}  # two values of the same
 # pairs whose momentum is not accounted for, with words of the warning about it: forces on walls are also those of the zones,
 # and the random forces of a drag are no pairs'
 NO_BALANCE = {("walls", "open"): "", ("dense_walls", "open"): "", ("noise", "drag"): "", ("open", "overlay"): "not in the ledger", ("open", "cohesion"): ""}
@@ -484,7 +486,7 @@ def test_pair(cases, names):
 
 
 # the same features in the words of the pages
-ON_PAGES = {"rkl2": r"\*(viscous )?rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "open": r"ix sph/open\b",
+ON_PAGES = {"rkl2": r"\*(viscous )?rkl2\*", "implicit": r"\*(viscous )?implicit\*", "bodies": r"\*move rigid\*", "hot_bodies": r"\*move rigid\*", "contact": r"\*move rigid\*", "elastic": r"\*move elastic\*", "open": r"ix sph/open\b",
             "split": r"ix sph/refine\b", "noise": r"\*temp( T seed)?\*", "warm": r"\*temp( energy)?\*", "rerun": r"[Rr]erun", "limit": r"\*limit\*|a \*kappa\* below",
             "shift": r"\*shift\*", "spin": r"\*sph/micropolar\*", "idle_spin": r"\*sph/micropolar\*", "surface": r"\*density continuity\*", "drag": r"\*drag\*",
             "interdrag": r"\*interdrag\*", "thinning": r"\*power\*|iscosities that are not constant", "arrhenius": r"\*arrhenius\*|iscosities that are not constant", "thixotropy": r"\*thixotropy\*|iscosities that are not constant",

@@ -129,10 +129,11 @@ REFUSALS = {
     "Fix {} cannot be used when fix deform remaps velocities": [(WALL, "*fix sph/wall*", "*fix deform remap v*")],
     "Fix {} heat flux cannot be used with temp energy": [(WALL, "*heat flux*", "*temp energy*"), (NOISE, "*temp energy*", "*heat flux*")],
     "Fix {} cannot be used with temp energy and eos ideal or gruneisen": [(page, "*temp energy*", "*fix sph/wall*", ["*eos ideal*", "*gruneisen*"]) for page in (WALL, NOISE)],
-    "Fix {} move rigid cannot be used with {}": [
-        (WALL, "*move rigid*", ["minimization", "*gravity* without *density continuity*", "*rerun*", "*sph/micropolar*", "*shear morris* and *espanol*", "*bulk volume*",
+    "Fix {} move {} cannot be used with {}": [
+        (WALL, "*move rigid* and *move elastic*", ["minimization", "*gravity* without *density continuity*", "*rerun*", "*sph/micropolar*", "*shear morris* and *espanol*", "*bulk volume*",
                                 "*temp energy*", "*eos ideal*", "*gruneisen*", "vortex viscosity", "*interdrag*", LAWS, "*fix sph/open*", "*fix sph/torque*",
                                 "*velocity*", "*rotate*", "*slip*", "*spin*"]),
+        *((page, "*move elastic*", ["*viscous rkl2*", "*implicit*"]) for page in (WALL, FLUID)),
         (RHEOLOGY, LAWS, "*move rigid*"), (OPEN, "*fix sph/open*", "*move rigid*"), (PAIR, "*interdrag*", "*move rigid*"), (NOISE, "*temp energy*", "*move rigid*")],
     "Fix {} {} move rigid cannot be used with the thermostat": [(WALL, "*move rigid*", "thermostats")],
     "Pair style {} {} cannot be used with rerun": [(PAIR, "Rerun", ["*eos ideal*", "*temp energy*"]), (NOISE, "*temp energy*", "rerun")],
@@ -173,7 +174,7 @@ REFUSALS = {
     "Pair_style {} limit requires bulk density": [(PAIR, "*limit*", "*bulk density*")],
     "Fix {}: only slip no and spin zero can be used with temp": [(NOISE, "*temp*", "*slip no*", "*spin zero*")],
     "Fix {} requires pair_style {} volume mass": [("fix_sph_refine", "*volume mass*")],
-    "Fix {} move rigid requires the style without suffix": [(WALL, "*move rigid*", "the suffix *kk*")],
+    "Fix {} move {} requires the style without suffix": [(WALL, "*move rigid* and *move elastic*", "the suffix *kk*")],
 }
 REFUSING = re.compile(r"cannot (?:be (?:used|combined) (?:with|in|when)|use dynamic)\b|requires (?:limit|bulk|delta|tension|dim|pair_style \{\})|needs fix \{\} viscous|without suffix|can be used with temp")
 
@@ -220,7 +221,7 @@ def test_each_refusal_is_on_a_page():
         assert any(text.startswith(message) for text in texts + laws), f"no error of the package: {message}"
     # bodies: as many reasons as the sources have, but for two in one and the keywords of the command
     bodies = refused_by("fix_sph_wall_checks.cpp", "check_bodies")
-    (listed,) = (words for _, _, words in REFUSALS["Fix {} move rigid cannot be used with {}"][:1])
+    (listed,) = (words for _, _, words in REFUSALS["Fix {} move {} cannot be used with {}"][:1])
     for text in bodies:
         assert any(re.split(" and | without ", word.replace("*", ""))[0] in text for word in listed), text
 
