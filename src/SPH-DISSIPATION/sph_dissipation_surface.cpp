@@ -25,6 +25,7 @@ using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 static constexpr double RESIDUAL = SurfacePlane::RESIDUAL;
+static constexpr double SINGLE = -HUGE_VAL;    // depth of a particle of a body with a single layer
 
 static double edge(double rsq, double radius)
 {
@@ -130,7 +131,8 @@ template <class Task> void SurfaceStage::for_each(const std::vector<int> &owned,
 }
 
 /* ----------------------------------------------------------------------
-   Set normal and depth of the outer layer; other layers, and layers on the far side from the fluid, get the normal 0.
+   Set normal and depth of the outer layer; other layers, and layers on the far side from the fluid, get the normal 0.  So do
+   bodies of a single layer: the surface is on both sides.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &owned)
@@ -144,19 +146,21 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
     const SurfacePlane plane(cells, atom->x[i], s.spacing, support, dim, [&](int j) {
       return together(i, j) ? atom->vfrac[j] : 0.0;
     });
+    const bool thin =
+        of_body && plane.length < SurfacePlane::THIN * SurfacePlane::WIDTH * s.spacing;
     const bool faces = of_body ||
         MathExtra::dot3(plane.inward, s.normal) <
             -RESIDUAL * RESIDUAL * plane.length * MathExtra::len3(s.normal);
-    const bool outer = plane.outer && plane.directed && faces;
+    const bool outer = plane.outer && plane.directed && faces && !thin;
     for (int d = 0; d < 3; d++) s.normal[d] = outer ? -plane.inward[d] / plane.length : 0.0;
-    s.depth = plane.depth;
+    s.depth = (thin && plane.outer) ? SINGLE : plane.depth;
   });
 }
 
 /* ----------------------------------------------------------------------
    Set depth and normal of all layers as the mean over the tangential planes of the outer layer, each weighted by the inverse
    eighth power of its distance: planes far away on a curved surface or round a corner do not matter.  A particle without
-   planes, or half way between opposite ones, gets the normal 0 and the depth CLOSEST_MEAN spacings.
+   planes, half way between opposite ones, or of a single layer gets the normal 0 and the depth CLOSEST_MEAN spacings.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
@@ -167,6 +171,7 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
   engine.for_each(nowned, [&](int k) {
     const int i = owned[k];
     Surface s = surface[i];
+    const bool single = (s.depth == SINGLE);
     const double soft = CLOSEST * s.spacing;
     double weights = 0.0, depth = 0.0, normal[3] = {0.0, 0.0, 0.0};
     cells.near(atom->x[i], support, [&](int j, const double *r, double rsq) {
@@ -179,7 +184,7 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
       for (int d = 0; d < 3; d++) normal[d] += weight * plane.normal[d];
     });
     const double length = MathExtra::len3(normal);
-    if (length > RESIDUAL * weights) {
+    if (length > RESIDUAL * weights && !single) {
       s.depth = std::max(depth / weights, 0.0);
       for (int d = 0; d < 3; d++) s.normal[d] = normal[d] / length;
     } else {

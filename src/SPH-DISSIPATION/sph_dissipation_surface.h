@@ -42,6 +42,10 @@ namespace SPHDissipation {
     // residual of vectors that cancel each other
     static constexpr double RESIDUAL = 0.1;
 
+    // A body of a single layer has fluid on both sides: its vectors, at its ends and where it bends, are shorter than this
+    // part of the width; those of a body of two layers are longer
+    static constexpr double THIN = 0.2;
+
     double filled = 0.0,
            inward[3] = {0.0, 0.0, 0.0};    // filled part of space; vector to its center
     double length = 0.0;                   // of inward

@@ -160,8 +160,8 @@ def test_free_fall(lammps):
 
 def test_held_particles(lammps):
     """*fix setforce* holds them."""
-    text = drop().replace("fix 1 fluid", "group held id <= 75\ngroup hold intersect held body\nvelocity hold set 0 0 0\nfix 0 hold setforce 0 0 0\nfix 1 fluid")
-    lammps(text + "dump D hold custom 50 out.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\nrun 100\n")
+    text = drop().replace("fix 1 fluid", "group held id <= 75\ngroup hold intersect held body\nvelocity hold set 0 0 0\nfix 1 fluid")
+    lammps(text + "fix 4 hold setforce 0 0 0\ndump D hold custom 50 out.dump id xu yu zu vx vy vz fx fy fz\ndump_modify D sort id format float %.17g\nrun 100\n")
     frames = lammps.frames("out.dump")
     assert len(frames[0]["x"]) > 2 and np.abs(frames[-1]["x"] - frames[0]["x"]).max() == 0.0
 
