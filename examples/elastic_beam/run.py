@@ -98,7 +98,7 @@ def plot(path, run):
     right.plot(run.t, run.y, "C0", lw=1.0, label=f"particles, n = {run.n}")
     right.plot(run.t, damped(run.t, run.theory.static, -run.theory.static, 0.0, run.theory.omega, 0.0), "k", lw=2.6, alpha=0.3, label="theory, without damping")
     right.axhline(run.theory.static, color="k", lw=0.8, ls=":")
-    right.set(title="deflection in the middle, $y/L$", xlabel=r"time $t\,(g/L)^{1/2}$", xlim=(0, 1.5))
+    right.set(title="deflection in the middle, $y/L$", xlabel=r"time $t\,(g/L)^{1/2}$", xlim=(0, 1.5), ylim=(-0.0078, 0.0016))
     right.legend(fontsize=8, loc="upper right")
     save(figure, path)
 

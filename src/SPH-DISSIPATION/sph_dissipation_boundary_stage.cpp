@@ -219,7 +219,8 @@ double BoundaryStage::own_term() const
 
 void BoundaryStage::warn_of_contact()
 {
-  constexpr double CLOSE = 1.5;    // spacings
+  constexpr double CLOSE = 1.5,
+                   ELASTIC = 0.7;    // spacings; elastic bodies may be clamped to walls
   if (!body_bits || warned_of_contact || utils::strmatch(force->pair_style, "^hybrid")) return;
   std::vector<int> members;
   for (int i = 0; i < atom->nlocal + atom->nghost; i++)
@@ -232,7 +233,8 @@ void BoundaryStage::warn_of_contact()
   for (int i = 0; i < atom->nlocal && !touching; i++) {
     if (!(atom->mask[i] & body_bits)) continue;
     const double volume = engine.rows().reference_volume(i);
-    cells.near(atom->x[i], CLOSE * spacing_of(par.dim, volume), [&](int j, const double *, double) {
+    const double close = (atom->mask[i] & elastic_bits) ? ELASTIC : CLOSE;
+    cells.near(atom->x[i], close * spacing_of(par.dim, volume), [&](int j, const double *, double) {
       if (body_of[j] != body_of[i] && !((atom->mask[i] | atom->mask[j]) & with_contact))
         touching = 1;
     });
