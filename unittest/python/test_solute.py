@@ -365,3 +365,43 @@ def test_what_it_cannot_be_used_with(lammps, diffusivity):
         "group flow subtract all inlet\nunfix FLUID\nfix FLUID flow sph/bulk\nfix IN inlet sph/open flow 4 4 0 1 0 0 8 velocity 1 0 0\nrun 0\n")
     result = lammps(zone, check=False)
     assert "sph/open cannot be used with solute of pair_coeff, which type 1 has" in result.error
+
+
+def test_solute_of_an_open_stream(lammps):
+    """A uniform stream carries the amount of the inlet; the sum of the amounts of all particles that have entered is exact."""
+    lammps("""units lj
+dimension 2
+boundary f p p
+atom_style sph/bulk solute
+lattice sq 1.0 origin 0.5 0.5 0
+region box block -14 34 0 10 -0.5 0.5 units box
+create_box 1 box
+region filled block -8 28 INF INF INF INF units box
+create_atoms 1 region filled
+set group all mass 1.0
+region before block INF 0 INF INF INF INF units box
+region behind block 20 INF INF INF INF INF units box
+group inlet region before
+group outlet region behind
+group fluid subtract all inlet outlet
+set group inlet d_solute 1.0
+velocity all set 1.0 0 0
+neighbor 0.3 bin
+pair_style sph/bulk
+pair_coeff * * 1.0 10.0 0.5 2.0 3.0 pb 1.0 solute 0.05
+fix 1 fluid sph/bulk
+fix in inlet sph/open fluid 0 0 0 1 0 0 8 velocity 1.0 0 0
+fix out outlet sph/open fluid 20 0 0 -1 0 0 8 pressure 1.0
+timestep 0.02
+compute Q fluid reduce sum d_solute
+thermo_style custom step time c_Q atoms
+dump f fluid custom 100 s.dump id x vx d_solute
+dump_modify f sort id format float %.17g
+run 500
+""")
+    frame = lammps.frame("s.dump")
+    x, q = frame["x"], frame["d_solute"]
+    from math import erfc, sqrt
+    exact = np.array([0.5 * erfc((one - 10.0) / sqrt(4 * 0.05 * 10.0)) for one in x])
+    print(np.abs(q - exact).max(), np.abs(frame["vx"] - 1).max())
+    assert np.abs(q - exact).max() < 0.05

@@ -161,6 +161,7 @@ FLOWS = {
     "heat": Flow(walls=True, coeff=HEAT + " gruneisen 0.5 0.01[T]", fixes="fix low low sph/wall heat flux 2.0[pv]\n"
                  "fix high high sph/wall heat temp 0.04[T] gravity 0 0 -1.0[v/t]\nfix g fluid gravity 1.0[v/t] vector 0 0 -1\n"),
     "stiff_heat": Flow(coeff=HEAT, integrator="viscous rkl2 temperature 0.05[T]"),
+    "melt": Flow(coeff=HEAT + " melt 0.04[T] 0.06[T] 1.0[e/m] solid 100", integrator="viscous rkl2 temperature 0.05[T]"),
     "laws": Flow(walls=True, fixes=STICK, coeff="carreau 2.0[t] 0.6 1.5 0.05[pt] yield 0.05[p] 5[t]"),
     "eddies": Flow(walls=True, types=2, fixes=STICK, coeff="cross 2.0[t] 0.7 0.05[pt] smagorinsky 0.2[l] 1.0[pt]"),
     "body": Flow(walls=True, body=True, integrator="viscous implicit tolerance 1e-13",
