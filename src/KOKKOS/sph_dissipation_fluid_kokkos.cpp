@@ -253,7 +253,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
   }
   space.copy_coeffs();
   atomKK->sync(pair->execution_space, HEAT);
-  state_device.advance(not_fluid(), nullptr, 0);
+  state_device.advance(not_fluid(), not_fluid(), nullptr, 0);    // open zones are for the host
   atomKK->modified(pair->execution_space, STATES_MASK);
 }
 

@@ -607,7 +607,8 @@ void Fluid::set_step(double dt)
 void Fluid::advance_states()
 {
   const auto random = model->choice.thermal ? noise->draw_for_states() : std::vector<double>();
-  state->advance(not_fluid(), random.data(), atom->nlocal ? random.size() / atom->nlocal : 0);
+  state->advance(not_fluid(), boundary->bits(), random.data(),
+                 atom->nlocal ? random.size() / atom->nlocal : 0);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -84,6 +84,14 @@ namespace SPHDissipation {
         if (one) one[i] = 0.0;
     }
 
+    // Set strains to zero; other states stay
+    SPH_FUNCTION void relax(int i) const
+    {
+      States::each(*this, i, [&](auto channel, const auto &site) {
+        if (channel.KIND == StateKind::STRAIN) site.state() = 0.0;
+      });
+    }
+
     // Advance the states by a time step; noise[k * each] = noise of the state at place k < end
 
     SPH_FUNCTION void advance(int i, const double *noise, std::size_t each, int end) const

@@ -143,15 +143,17 @@ namespace SPHDissipation {
   /* ---------------------------------------------------------------------- */
 
   template <class Space>
-  void StateStage<Space>::advance(int not_fluid, const double *noise, int end) const
+  void StateStage<Space>::advance(int not_fluid, int walls, const double *noise, int end) const
   {
     const StateRows states = this->space.states();
     const int *const mask = this->space.mask();
     const int nlocal = this->atom->nlocal;
     this->space.for_each(
         "sph:states", nlocal, SPH_LAMBDA(int i) {
-          if (states.types[states.type[i]].other || (mask[i] & not_fluid))
+          if (states.types[states.type[i]].other || (mask[i] & walls))
             states.forget(i);
+          else if (mask[i] & not_fluid)
+            states.relax(i);
           else
             states.advance(i, noise ? noise + i : nullptr, nlocal, end);
         });

@@ -141,10 +141,10 @@ namespace SPHDissipation {
    public:
     using SharedStage<Space>::SharedStage;
 
-    // Advance the states by the time step of the parameters, from the last forces.
-    // noise[k * nlocal + i] = thermal noise of the state at place k < end
+    // Advance the states by the time step of the parameters, from the last forces.  Particles of open zones keep states that
+    // are no strains; walls, their bits, keep none.  noise[k * nlocal + i] = thermal noise of the state at place k < end
 
-    void advance(int not_fluid, const double *noise, int end) const;
+    void advance(int not_fluid, int walls, const double *noise, int end) const;
 
     // Drop states that the types of owned particles do not have; return the number of particles with such states, of all
     // processors, and the bits of the places of these states
