@@ -360,11 +360,6 @@ def test_what_it_cannot_be_used_with(lammps, diffusivity):
     no_room = header(2) + "region BOX block 0 8 0 8 -0.5 0.5\ncreate_box 1 BOX\n" + fluid(2, keywords=f"solute {diffusivity}") + INTEGRATE
     result = lammps(no_room + "run 0\n", check=False)
     assert "states of solute of type 1 are 1, but particles have room for 0; use atom_style sph/bulk solute" in result.error
-    zone = no_room.replace("atom_style sph/bulk", f"atom_style {ROOM}").replace("boundary p p p", "boundary f p p") + (
-        "lattice sq 1.0\ncreate_atoms 1 box\nset group all mass 1.0\nregion IN block INF 4 INF INF INF INF\ngroup inlet region IN\n"
-        "group flow subtract all inlet\nunfix FLUID\nfix FLUID flow sph/bulk\nfix IN inlet sph/open flow 4 4 0 1 0 0 8 velocity 1 0 0\nrun 0\n")
-    result = lammps(zone, check=False)
-    assert "sph/open cannot be used with solute of pair_coeff, which type 1 has" in result.error
 
 
 def test_solute_of_an_open_stream(lammps):
