@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
-from sph_dissipation import averages, exponents, fluids, frames, progress, pyplot, read_array, read_grid, save, thermo      # noqa: E402, F401
+from sph_dissipation import averages, exponents, fluids, frames, progress, pyplot, read_array, read_grid, save, series, thermo      # noqa: E402, F401
 
 TABLE = Path(__file__).with_name("examples.csv")    # what each example shows, takes, and has for a picture
 PATIENCE = 30      # seconds without a word, at most
