@@ -30,7 +30,7 @@ class Run:
         self.t = self.gauges["t"]
         self.pictures = sorted(out.glob(f"{name}.*.png"))
         (table,) = thermo((out / f"{name}.log").read_text())
-        self.atoms, self.hours = table["Atoms"], table["CPU"][-1] / 3600
+        self.atoms = table["Atoms"]
         p = self.gauges["P1"]
         self.arrival = self.t[np.argmax(p > ABOVE)] if (p > ABOVE).any() else np.inf
         self.peak = p.max()
@@ -87,13 +87,13 @@ def main():
     names = [f"{name} {begin}-{end}" for name in ("P1", "P2", "P3", "P4") for begin, end in MEANS]
     print("\nexperiment: " + ", ".join(f"{name} s {data[name[:2]][(data['t'] >= begin) & (data['t'] < end)].mean():.0f} Pa"
                                       for name, (begin, end) in zip(names, MEANS * 4)))
-    with csv_rows(table, ["run", "end", "arrival", "peak of P1", *names, *LEVELS, "hours"]) as writerow:
+    with csv_rows(table, ["run", "end", "arrival", "peak of P1", *names, *LEVELS]) as writerow:
         for name, run in runs.items():
             means = [run.mean(one[:2], *window) for one, window in zip(names, MEANS * 4)]
             distances = [run.distance(data, level) for level in LEVELS]
             writerow([name, f"{run.t[-1]:.2f}", f"{run.arrival:.4f}", f"{run.peak:.0f}", *(f"{value:.0f}" for value in means),
-                      *(f"{value:.4f}" for value in distances), f"{run.hours:.2f}"])
-            print(f"\n{name}: {run.atoms[0]:.0f} particles with the walls, to {run.t[-1]:.2f} s in {run.hours:.2f} hours; spray that has left: "
+                      *(f"{value:.4f}" for value in distances)])
+            print(f"\n{name}: {run.atoms[0]:.0f} particles with the walls, to {run.t[-1]:.2f} s; spray that has left: "
                   f"{run.atoms[0] - run.atoms[-1]:.0f}\narrival {run.arrival:.4f} s, peak of P1 {run.peak:.0f} Pa; "
                   + ", ".join(f"{one} s {value:.0f} Pa" for one, value in zip(names, means))
                   + "\nmean distance of levels over the largest: " + ", ".join(f"{level} {value:.3f}" for level, value in zip(LEVELS, distances)))
