@@ -81,6 +81,9 @@ WHERE = {
     "Rising bubble, smallest": (("results.txt", rf"^TP2D +{N}"), ("results.txt", rf"^n80 +{N}")),
     "Gas at rest": (None, ("results.txt", r"^gamma 1\.6667, kappa/mu 1, diffusivity 0\.45:(?:.*\n){5}.*Brillouin lines.*\): " + N)),
     "Disc in a fluctuating fluid": (None, ("results.txt", rf"^ *10 .* {N}  \S+$")),
+    "Sphere in a cubic array": (("results.txt", rf"^0\.22512 +\S+ +\S+ +{N}"), ("results.txt", rf"^0\.22512 +\S+ +{N}")),
+    "Beam of bonds under a column of water": (None, ("results.txt", rf"^fine: deflection over theory: {N}")),
+    "The same, frequency over theory": (None, ("results.txt", rf"^fine: frequency over theory: {N}")),
     "Gas below a piston": (("results.txt", rf"^monatomic gas, piston of mass 4, height of the piston: .* exact {N};"),
                            ("results.txt", rf"^monatomic gas, piston of mass 4, height of the piston: {N} ")),
 }
