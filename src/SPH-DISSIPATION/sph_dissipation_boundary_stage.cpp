@@ -244,7 +244,7 @@ void BoundaryStage::warn_of_contact()
     error->warning(FLERR,
                    "Pair style {}: a body touches another one, or a wall, in step {}: bodies have "
                    "no contact forces, only the fluid keeps them apart; use contact of fix "
-                   "sph/wall",
+                   "sph/wall for rigid bodies, pair_style hybrid for elastic ones",
                    style, update->ntimestep);
 }
 
