@@ -788,7 +788,8 @@ def test_changes_of_the_model(lammps, change):
     assert relative(same["Press"] - changed["Press"], same["Press"]) > 1e-6, "nothing has changed"
 
 
-LAWS = ("power 0.6 0.01 5 yield 0.1 10", "carreau 2 0.5 2 0.1 smagorinsky 0.5 3", "cross 2 0.7 0.1 cv 2 arrhenius 1 1.2 40", "thixotropy 1.5 2 5")
+LAWS = ("power 0.6 0.01 5 yield 0.1 10", "carreau 2 0.5 2 0.1 smagorinsky 0.5 3", "cross 2 0.7 0.1 cv 2 arrhenius 1 1.2 40", "thixotropy 1.5 2 5",
+        "cv 2 conductivity 0.3 melt 1.1 1.2 0.5 solid 20")
 
 
 @pytest.mark.parametrize("ranks, options", [(1, ""), (2, "shear mg/fr2 volume mass"), (4, "density continuity")])
@@ -801,7 +802,7 @@ def test_rate_of_shear(lammps, law, ranks, options):
     model = "".join(line + words.get(line[:14], "") + "\n" for line in fluids("sph/bulk", 2, 2, options).splitlines())
     text = script("sph/bulk", particles, model, 60, extra="compute G all property/atom shear_rate\n").replace("data.txt", "room.txt")
     text = text.replace("c_F[*] ", "c_F[*] c_G d_structure ").replace("atom_style sph/bulk", "atom_style sph/bulk thixotropy")
-    if "arrhenius" in law:
+    if "cv" in law:
         text = text.replace("fix FLUID all sph/bulk", "variable T atom 1.0+0.02*x\nfix FLUID all sph/bulk temperature v_T")
     (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, "sph/bulk", particles, text, ranks)
     assert_same("sph/bulk", cpu, kokkos, 1e-9)
