@@ -43,7 +43,7 @@ namespace SPHDissipation {
                                 length,
                                 data.par.slope_norm * K::slope(q),
                                 Sum::SHAPE ? K::shape(q) : 0.0};
-        sum.add(data, i, j, pair, total);
+        sum.add(data, i, j, pair, sum.shared(data, i, j, pair), total);
       });
       sum.finish(data, i, total);
     }

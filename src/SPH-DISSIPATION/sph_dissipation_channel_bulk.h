@@ -53,13 +53,10 @@ namespace SPHDissipation {
 
   // With a negative coefficient, bulk term and drag of the pairs together dissipate if zeta B >= -1/2 with the bound
   // B_i = sum_j (c_j/c_i)^2 V_j F r^2 / a_ij, where a_ij is the central weight of a pair (theory page).  bound_of_pair()
-  // returns the part of a pair of slope F and square distance rsq, for volumes and reference volumes V, w:
-  SPH_FUNCTION double bound_of_pair(double central_weight, double slope, double rsq, double vol_i,
-                                    double weight_i, double vol_j, double weight_j)
+  // returns F r^2 / a_ij of a pair of slope F and square distance rsq
+  SPH_FUNCTION double bound_of_pair(double central_weight, double slope, double rsq)
   {
-    if (rsq == 0.0) return 0.0;
-    const double ratio = vol_i * weight_j / (vol_j * weight_i);
-    return ratio * ratio * vol_j * (slope * rsq / central_weight);
+    return (rsq > 0.0) ? slope * rsq / central_weight : 0.0;
   }
   SPH_FUNCTION bool beyond_bound(double zeta, double bound)
   {

@@ -100,9 +100,10 @@ template <class Sum> void HostSpace::sum_pairs(const char *, const Sum &sum)
       pair.length = sqrt(pair.rsq);
       pair.slope = engine.slope(i, j, entry);
       pair.shape = shape(pair.length * support_inv);
-      sum.add(of, i, j, pair, total[i]);
+      const double both = sum.shared(of, i, j, pair);
+      sum.add(of, i, j, pair, both, total[i]);
       MathExtra::negate3(pair.r);
-      sum.add(of, j, i, pair, total[j]);
+      sum.add(of, j, i, pair, both, total[j]);
     });
   };
   if constexpr (Sum::SHAPE)

@@ -15,8 +15,9 @@
 #define LMP_SPH_DISSIPATION_PAIR_SUMS_H
 
 // Sums over the pairs of each particle, on the host and on a device.  add() adds a pair to the sum of particle i alone: a host
-// calls it for both particles of a pair, a device for each particle and its neighbors.  finish() gets the complete sum of an
-// owned particle, on a device while other particles still sum up: so it must not change what add() reads.  No LAMMPS include.
+// calls it for both particles of a pair, a device for each particle and its neighbors; both = shared(), a number of the pair
+// that does not depend on the side.  finish() gets the complete sum of an owned particle, on a device while other particles
+// still sum up: so it must not change what add() and shared() read.  No LAMMPS include.
 
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_shift_terms.h"
@@ -31,13 +32,17 @@ namespace SPHDissipation {
     static constexpr bool SHAPE = false;
     double *bound;
 
-    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
-                          double &sum) const
+    SPH_FUNCTION double shared(const ParticleRows &of, int i, int j, const PairPlace &pair) const
     {
       const PairCoeff &coeff = of.pair[of.type[i] * of.par.ntypes_1 + of.type[j]];
-      sum += bound_of_pair(central_weight(of.par.shear, coeff, pair.length), pair.slope, pair.rsq,
-                           of.particle[i].vol, of.weight[i * of.each], of.particle[j].vol,
-                           of.weight[j * of.each]);
+      return bound_of_pair(central_weight(of.par.shear, coeff, pair.length), pair.slope, pair.rsq);
+    }
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &, double both,
+                          double &sum) const
+    {
+      const double vol_i = of.particle[i].vol, vol_j = of.particle[j].vol;
+      const double ratio = vol_i * of.weight[j * of.each] / (vol_j * of.weight[i * of.each]);
+      sum += ratio * ratio * vol_j * both;
     }
     SPH_FUNCTION void finish(const ParticleRows &, int i, double sum) const { bound[i] = sum; }
   };
@@ -49,14 +54,18 @@ namespace SPHDissipation {
     static constexpr bool SHAPE = false;
     int not_fluid;
 
-    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
-                          double &sum) const
+    SPH_FUNCTION double shared(const ParticleRows &of, int i, int j, const PairPlace &pair) const
     {
       const Particle &a = of.particle[i], &b = of.particle[j];
       double approach = 0.0;
       for (int d = 0; d < 3; d++) approach += pair.r[d] * (a.u[d] - b.u[d]);
       const double metric = (of.par.shear == Shear::MG_FR2) ? 1.0 : pair.rsq;
-      if (pair.rsq > 0.0) sum += b.vol * (pair.slope * approach * (approach / metric));
+      return (pair.rsq > 0.0) ? pair.slope * approach * (approach / metric) : 0.0;
+    }
+    SPH_FUNCTION void add(const ParticleRows &of, int, int j, const PairPlace &, double both,
+                          double &sum) const
+    {
+      sum += of.particle[j].vol * both;
     }
     SPH_FUNCTION void finish(const ParticleRows &of, int i, double sum) const
     {
@@ -72,7 +81,7 @@ namespace SPHDissipation {
     ShiftRow *row;    // of owned and ghost particles
 
     // Return a_ij; set r to r' = r_ij at the new places; set v to the velocity of a particle
-    SPH_FUNCTION double share(int i, int j, const PairPlace &pair) const
+    SPH_FUNCTION double shared(const ParticleRows &, int i, int j, const PairPlace &pair) const
     {
       return shift_share(pair.slope, row[i], row[j]);
     }
@@ -90,13 +99,13 @@ namespace SPHDissipation {
     typedef ShiftSum Row;
     static constexpr bool SHAPE = true;
 
-    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair, double share,
                           ShiftSum &sum) const
     {
       const Particle &a = of.particle[i], &b = of.particle[j];
       const double u[3] = {a.u[0] - b.u[0], a.u[1] - b.u[1], a.u[2] - b.u[2]};
       const double push = concentration_push(b.vol, pair.slope, pair.shape, row[i].contact);
-      add_to_shift(law, pair.r, u, b.vol, pair.slope, push, share(i, j, pair), sum);
+      add_to_shift(law, pair.r, u, b.vol, pair.slope, push, share, sum);
     }
     SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftSum &sum) const
     {
@@ -107,17 +116,16 @@ namespace SPHDissipation {
   struct ExchangeSum : ShiftPairs {
     typedef ShiftExchange Row;
 
-    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair, double share,
                           ShiftExchange &sum) const
     {
-      const double part = share(i, j, pair);
-      if (part == 0.0) return;
+      if (share == 0.0) return;
       double v[3], w[3];
       velocity(of, i, v);
       velocity(of, j, w);
       for (int d = 0; d < 3; d++) {
-        sum.moved[d] += part * row[j].q[d];
-        sum.slip[d] += part * (v[d] - w[d]);
+        sum.moved[d] += share * row[j].q[d];
+        sum.slip[d] += share * (v[d] - w[d]);
       }
     }
     SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftExchange &sum) const
@@ -129,14 +137,13 @@ namespace SPHDissipation {
   struct ReturnTensorSum : ShiftPairs {
     typedef ShiftTensor Row;
 
-    SPH_FUNCTION void add(const ParticleRows &, int i, int j, const PairPlace &pair,
+    SPH_FUNCTION void add(const ParticleRows &, int i, int j, const PairPlace &pair, double share,
                           ShiftTensor &sum) const
     {
-      const double part = share(i, j, pair);
-      if (part == 0.0) return;
+      if (share == 0.0) return;
       double r[3];
       distance(i, j, pair, r);
-      add_square(law.dim, part, r, sum.a);
+      add_square(law.dim, share, r, sum.a);
     }
     SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftTensor &sum) const
     {
@@ -150,16 +157,15 @@ namespace SPHDissipation {
     double *energy;
     double dt, keep, mvv2e;    // see finish_shift()
 
-    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair,
+    SPH_FUNCTION void add(const ParticleRows &of, int i, int j, const PairPlace &pair, double share,
                           ShiftReturn &sum) const
     {
-      const double part = share(i, j, pair);
-      if (part == 0.0) return;
+      if (share == 0.0) return;
       double r[3], v_i[3], v_j[3], push[3];
       distance(i, j, pair, r);
       velocity(of, i, v_i);
       velocity(of, j, v_j);
-      sum.work += impulse_of_pair(part, row[i], row[j], v_i, v_j, r, push);
+      sum.work += impulse_of_pair(share, row[i], row[j], v_i, v_j, r, push);
       for (int d = 0; d < 3; d++) sum.impulse[d] += push[d];
     }
     SPH_FUNCTION void finish(const ParticleRows &, int i, const ShiftReturn &sum) const
