@@ -17,6 +17,7 @@
 // Boundary particles on the device, as class BoundaryStage on the host
 
 #include "pointers.h"
+#include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_boundary.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_wall_terms.h"

@@ -14,6 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_FLUID_KOKKOS_H
 #define LMP_SPH_DISSIPATION_FLUID_KOKKOS_H
 
+#include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_space_kokkos.h"

@@ -378,13 +378,16 @@ namespace SPHDissipation {
     }
 
     // Return the first place, and the coefficients, of a channel
-    template <class Channel> static constexpr int first_of()
+    template <class Channel> SPH_FUNCTION static constexpr int first_of()
     {
       return Channels::first_of_type<Channel>();
     }
-    template <class Channel> const double *of() const { return a + first_of<Channel>(); }
-    const double *rheology() const { return of<ShearChannel>(); }
-    double drag() const { return Channels::drag(a); }
+    template <class Channel> SPH_FUNCTION const double *of() const
+    {
+      return a + first_of<Channel>();
+    }
+    SPH_FUNCTION const double *rheology() const { return of<ShearChannel>(); }
+    SPH_FUNCTION double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
     // Return the temperature at a heat per mass, and its inverse; return the solid fraction, 0 without melt

@@ -35,14 +35,14 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool CONDUCTS = false> struct Pa
   static constexpr int N = MANY ? 8 : 4;
   Vec z[N];
 
-  static constexpr bool is_used(int k)
+  SPH_INLINE static constexpr bool is_used(int k)
   {
     if (k == FLOW && CONDUCTS) return true;
     if (k == BACK) return DIRECTED;
     if (k == ALONG) return DIRECTED || ACROSS != 3;
     return k < ACROSS || (SPIN && is_of_vector(k));
   }
-  static constexpr bool is_of_vector(int k)
+  SPH_INLINE static constexpr bool is_of_vector(int k)
   {
     if (k == FLOW && CONDUCTS) return true;
     return (ACROSS == 3) ? k != ALONG && k != BACK : ACROSS == 2 && k == 2;
