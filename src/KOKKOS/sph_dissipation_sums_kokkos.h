@@ -17,6 +17,7 @@
 // Other sums over the pairs of each particle
 
 #include "atom.h"
+#include "neigh_list.h"
 #include "pair.h"
 #include "sph_dissipation_kernel.h"
 #include "sph_dissipation_loops_kokkos.h"

@@ -154,6 +154,18 @@ def test_first_lines_are_plain_text(page):
     assert not re.search(r":\w+:`", first), first
 
 
+# -- Links ---------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("page", sorted((ROOT / "doc" / "src").glob("*.rst")), ids=lambda page: page.stem)
+def test_links_lead_to_pages(page):
+    """pages of this manual, or those of LAMMPS's manual that doc/src/_ext/lammps_pages.py lists"""
+    extension = (ROOT / "doc" / "src" / "_ext" / "lammps_pages.py").read_text()
+    known = set(re.search(r'MANUAL_PAGES = frozenset\("""(.*?)"""', extension, re.DOTALL)[1].split())
+    known |= {path.stem for path in page.parent.glob("*.rst")}
+    assert not set(re.findall(r":doc:`(?:[^`<]*<)?(\w+)>?`", page.read_text(encoding="utf-8"))) - known
+
+
 # -- Length --------------------------------------------------------------------------------------------------------
 
 LONGEST = 6000

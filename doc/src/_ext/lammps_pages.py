@@ -16,10 +16,10 @@ MANUAL = "https://docs.lammps.org/"
 # the pages of the LAMMPS manual that may be linked to: a misspelled name stays a warning
 MANUAL_PAGES = frozenset("""
     Build_package Howto_2d Howto_grid Howto_output Howto_triclinic Howto_viscosity Modify_style
-    atom_modify atom_style balance boundary comm_modify comm_style compute compute_ke compute_msd compute_pair compute_pe_atom
+    atom_modify atom_style balance bond_style boundary comm_modify comm_style compute compute_ke compute_msd compute_pair compute_pe_atom
     compute_property_grid
     compute_pressure compute_property_atom compute_stress_atom compute_temp create_atoms dimension dump
-    fix fix_adapt fix_ave_correlate fix_ave_grid fix_ave_time fix_balance fix_deform fix_deposit fix_dt_reset fix_langevin fix_modify fix_move fix_nve fix_rigid fix_setforce fix_sph fix_sph_stationary fix_spring fix_wall_reflect lattice mass
+    fix fix_adapt fix_addforce fix_ave_correlate fix_ave_grid fix_ave_time fix_balance fix_deform fix_deposit fix_dt_reset fix_langevin fix_modify fix_move fix_nve fix_rigid fix_setforce fix_sph fix_sph_stationary fix_spring fix_wall_reflect lattice mass
     minimize neigh_modify neighbor newton pair_coeff pair_hybrid pair_modify pair_sph_idealgas
     pair_sph_rhosum pair_sph_taitwater pair_sph_taitwater_morris pair_style pair_write
     plugin read_data read_restart replicate rerun reset_timestep restart run run_style set special_bonds thermo_style timer timestep
