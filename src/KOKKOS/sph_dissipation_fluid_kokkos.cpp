@@ -30,6 +30,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_noise_kokkos.h"
+#include "sph_dissipation_report.h"
 #include "sph_dissipation_shared_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_threads.h"
@@ -276,8 +277,8 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
   else if (neighbor->ago == 0)
     atomKK->sync(Host,
                  RMASS_MASK | TAG_MASK | TYPE_MASK |
-                     (checks_speed() ? V_MASK | MASK_MASK : EMPTY_MASK) |
-                     (checks_expansion() ? SPH_RHO_MASK | MASK_MASK : EMPTY_MASK));
+                     (log->reads_velocities() ? V_MASK | MASK_MASK : EMPTY_MASK) |
+                     (log->reads_densities() ? SPH_RHO_MASK | MASK_MASK : EMPTY_MASK));
   const bigint nbeyond = Fluid::compute(tally);
   atomKK->modified(pair->execution_space, space.modified_mask());
 

@@ -27,7 +27,9 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_keywords.h"
+#include "sph_dissipation_report.h"
 #include "sph_dissipation_steps.h"
+#include "sph_dissipation_table.h"
 #include "sph_dissipation_viscous.h"
 #include "update.h"
 
@@ -112,7 +114,7 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
   for (const auto &integrator : integrators) integrator->set_inertia();
 
   limits[FORCE] = UNLIMITED_STEP;
-  reset_step(allowed_step(fluid->coeff_table()));
+  reset_step(allowed_step(fluid->stability->table()));
 }
 
 /* ----------------------------------------------------------------------
@@ -123,11 +125,11 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
 void FixSPHDt::setup(int /*vflag*/)
 {
   set_up = true;
-  limits[FORCE] = part_of(part[FORCE], fluid->fall_time());
-  const CoeffTable table = fluid->coeff_table();
+  limits[FORCE] = part_of(part[FORCE], fluid->stability->fall_time());
+  const CoeffTable table = fluid->stability->table();
   const double step = allowed_step(table);
   reset_step(fluid->viscous->active() ? std::min(step, update->dt) : step);
-  fluid->check_time_step(table);
+  fluid->log->check_time_step(table);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -135,8 +137,8 @@ void FixSPHDt::setup(int /*vflag*/)
 void FixSPHDt::end_of_step()
 {
   check_set_up(lmp, this, set_up);
-  limits[FORCE] = part_of(part[FORCE], fluid->fall_time());
-  reset_step(std::min(allowed_step(fluid->coeff_table()), GROWTH * update->dt));
+  limits[FORCE] = part_of(part[FORCE], fluid->stability->fall_time());
+  reset_step(std::min(allowed_step(fluid->stability->table()), GROWTH * update->dt));
 }
 
 /* ----------------------------------------------------------------------

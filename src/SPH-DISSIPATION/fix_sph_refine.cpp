@@ -36,6 +36,7 @@
 #include "sph_dissipation_keywords.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_refine.h"
+#include "sph_dissipation_table.h"
 #include "sph_dissipation_value.h"
 #include "update.h"
 
@@ -359,7 +360,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
   enum { FLUID, EVENTS, DAUGHTERS, CROWDED, NSUM };
   double sum[NSUM] = {0.0, 0.0, 0.0, 0.0}, all[NSUM];
   const double smallest = list_volume() / neighbor->oneatom;
-  const Sound sound = fluid->sound();
+  const Sound sound = fluid->stability->sound();
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit) || !is_fluid(i)) continue;
     sum[FLUID] += 1.0;
@@ -393,7 +394,7 @@ bool FixSPHRefine::wanted(bigint &nfluid)
 void FixSPHRefine::set_items()
 {
   event->begin();
-  const Sound sound = fluid->sound();
+  const Sound sound = fluid->stability->sound();
   for (int i = 0; i < atom->nlocal; i++) {
     RefineState state = is_fluid(i) ? KEEPS : NOT_FLUID;
     double goal = 0.0;

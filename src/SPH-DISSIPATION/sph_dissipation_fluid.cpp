@@ -18,8 +18,6 @@
 #include "error.h"
 #include "fix.h"
 #include "force.h"
-#include "group.h"
-#include "math_extra.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "pair_hybrid.h"
@@ -30,15 +28,16 @@
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
-#include "sph_dissipation_kernel.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_neighbors.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_pair_energy.h"
 #include "sph_dissipation_particle_terms.h"
+#include "sph_dissipation_report.h"
 #include "sph_dissipation_stages.h"
 #include "sph_dissipation_state.h"
+#include "sph_dissipation_table.h"
 #include "sph_dissipation_traces.h"
 #include "sph_dissipation_viscous.h"
 #include "timer.h"
@@ -51,14 +50,6 @@
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
-
-// Largest viscous rate times time step without a warning: between the steps, a mode of this rate is 5 % too hot.
-
-static constexpr double ACCURATE_NOISE = 0.1;
-
-// Largest sqrt(kT/m)/c0 without a warning: the relative standard deviation of the density in the volume of a particle.
-
-static constexpr double FAST_NOISE = 0.5;
 
 // Data that stages leave for later ones, see list_stages() and the design page
 
@@ -86,7 +77,9 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     shift(new ShiftStage<HostSpace>(lmp, *host)),
     noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary))
+    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)),
+    stability(new Stability(lmp, *model, *engine, *boundary, *contact)),
+    log(new FluidReport(lmp, *engine, *exchange, style, *model, *boundary, *open, *shift, *viscous))
 {
 }
 
@@ -104,7 +97,8 @@ void Fluid::settings(int narg, char **arg)
     error->all(FLERR,
                "Pair_style {} simd {}: not in this processor, or not in this executable of LAMMPS",
                style, model->simd);
-  announced = set_up = false;
+  log->renew();
+  set_up = false;
 }
 
 /* ----------------------------------------------------------------------
@@ -115,7 +109,8 @@ void Fluid::coeff(int narg, char **arg)
 {
   model->adopt();    // keep the coefficients that other commands have set
   model->coeff(narg, arg, pair->setflag);
-  announced = set_up = false;
+  log->renew();
+  set_up = false;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -195,7 +190,7 @@ void Fluid::check_setup()
   check.fluid_lists();
   check.room();
   check.support(dim, support);
-  if (!announced) check.skin(dim, support);
+  if (log->has_new()) check.skin(dim, support);
   if (spins) check.spins();
 }
 
@@ -227,33 +222,13 @@ void Fluid::find_own_types()
 }
 
 /* ----------------------------------------------------------------------
-   Warn, on rank 0, of two types of this fluid whose pairs belong to other styles of pair_style hybrid only.
-------------------------------------------------------------------------- */
-
-void Fluid::check_all_interact()
-{
-  auto *const hybrid = dynamic_cast<PairHybrid *>(force->pair);
-  if (!hybrid || comm->me != 0) return;
-  std::string name = style;
-  for (int i = 1; i <= atom->ntypes; i++)
-    for (int j = i + 1; j <= atom->ntypes; j++)
-      if (has_type(i) && has_type(j) && !hybrid->check_ijtype(i, j, &name[0])) {
-        error->warning(FLERR,
-                       "Pair style {}: particles of types {} and {} do not interact, since "
-                       "pair_coeff gives these types to other styles only; use pair_coeff {} {} {}",
-                       style, i, j, i, j, style);
-        return;
-      }
-}
-
-/* ----------------------------------------------------------------------
    Derive the parameters of the loops from the coefficients that the commands have set.
 ------------------------------------------------------------------------- */
 
 void Fluid::derive_coeffs()
 {
   stale = false;
-  if (model->adopt()) announced = false;
+  if (model->adopt()) log->renew();
   stages.clear();
   viscous->forget_rates();
   temperature->forget_rates();
@@ -271,7 +246,7 @@ void Fluid::adopt()
   if (!stale) return;
   derive_coeffs();
   if (!update->setupflag && update->whichflag == 1 && !step_follows())
-    check_time_step(coeff_table());
+    log->check_time_step(stability->table());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -307,8 +282,7 @@ void Fluid::begin_forces()
   const FluidChecks check(lmp, style, *model);
   if (neighbor->ago == 0) {
     check.masses();
-    if (checks_speed()) check_speed();
-    if (checks_expansion()) check_expansion();
+    log->check_list();
   }
   if (update->setupflag) {
     check.numbers();
@@ -586,11 +560,9 @@ void Fluid::keep_densities()
 
 void Fluid::begin_step(double dt)
 {
-  if (look_after > 0.0 && (moving += dt) > look_after)
+  if (log->elasticity_is_due(dt))
     for_report([this]() {
-      FluidState state(lmp, *engine, *exchange, *model);
-      state.run(1, not_fluid(), pressures());
-      check_elasticity(state);
+      log->check_elasticity(pressures());
     });
   if (!engine->constants().states) return;
   set_step(dt);
@@ -654,7 +626,7 @@ double Fluid::received_heat(int groupbit) const
 void Fluid::find_velocity()
 {
   if (neighbor->ago == 0 || viscous->has_old_rates())
-    viscous->set_rate(coeff_table().fastest_rate());
+    viscous->set_rate(stability->table().fastest_rate());
   const bool symmetric = !boundary->has_mean_pressure() && model->choice.bulk != Bulk::VOLUME;
   viscous->run(neighbors(), bound(), symmetric);
 }
@@ -666,7 +638,7 @@ void Fluid::find_velocity()
 void Fluid::find_temperature()
 {
   if (neighbor->ago == 0 || temperature->has_old_rates())
-    temperature->set_rate(coeff_table().fastest_heat_rate());
+    temperature->set_rate(stability->table().fastest_heat_rate());
   temperature->run(not_fluid());
 }
 
@@ -812,76 +784,6 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
 
 /* ---------------------------------------------------------------------- */
 
-bool Fluid::checks_speed() const
-{
-  return fast_lists >= 0 && model->choice.eos != Eos::IDEAL && !model->choice.thermal;
-}
-
-/* ----------------------------------------------------------------------
-   Warn once if over 10 % of the particles are faster than a limit at two successive neighbor lists: 0.1 c0 with density
-   continuity (the density varies by 1 %), else 0.3 c0 (5 %, as in flows with sound).  Single drops of spray do not count.
-   Without walls and open ends, speeds are relative to the center of mass.
-------------------------------------------------------------------------- */
-
-void Fluid::check_speed()
-{
-  constexpr double MANY = 0.1;                                   // part of the particles
-  const double fast = (model->choice.continuity) ? 0.1 : 0.3;    // speed over c0
-  bigint mine[2] = {0, 0}, all[2];
-  double mean[3] = {0.0, 0.0, 0.0};
-  if (boundary->empty() && open->empty()) group->vcm(0, group->mass(0), mean);
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!has_type(atom->type[i]) || is_boundary(i)) continue;
-    double v[3];
-    MathExtra::sub3(atom->v[i], mean, v);
-    mine[0]++;
-    if (MathExtra::len3(v) > fast * model->coeffs[atom->type[i]].eos.c0) mine[1]++;
-  }
-  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  fast_lists = (all[1] > MANY * all[0]) ? fast_lists + 1 : 0;
-  if (fast_lists < 2) return;
-  fast_lists = -1;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style {}: {} of {} particles are faster than {:g} c0: the liquid is "
-                   "compressed; use a c0 of 10 times the largest speed",
-                   style, all[1], all[0], fast);
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool Fluid::checks_expansion() const
-{
-  return !expanded && !model->constants().tension && !update->setupflag;
-}
-
-/* ----------------------------------------------------------------------
-   Warn once if over half of the particles have densities below 0.9 times that at which the pressure ends.  Without tension,
-   no force holds such a fluid together.  Spray is a small part of a fluid.
-------------------------------------------------------------------------- */
-
-void Fluid::check_expansion()
-{
-  constexpr double MANY = 0.5,
-                   THIN = 0.9;    // part of the particles; density over rho_min
-  bigint mine[2] = {0, 0}, all[2];
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (!has_type(atom->type[i]) || is_boundary(i)) continue;
-    mine[0]++;
-    if (atom->rho[i] < THIN * model->coeffs[atom->type[i]].eos.rho_min) mine[1]++;
-  }
-  MPI_Allreduce(mine, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
-  expanded = (all[1] > MANY * all[0]);
-  if (expanded && comm->me == 0)
-    error->warning(FLERR,
-                   "Pair style {} tension no: the density of {} of {} particles is below {:g} of "
-                   "that at which the pressure ends: the fluid flies apart without resistance; use "
-                   "tension yes where a flow needs suction",
-                   style, all[1], all[0], THIN);
-}
-
-/* ---------------------------------------------------------------------- */
-
 bool Fluid::has_forces() const
 {
   return over_all<int>(world, has_own_forces(), MPI_MIN);
@@ -953,114 +855,21 @@ void Fluid::announce()
     });
 }
 
-/* ---------------------------------------------------------------------- */
-
 void Fluid::report()
 {
   const FluidChecks check(lmp, style, *model);
-  const CoeffTable table = coeff_table();
+  const CoeffTable table = stability->table();
   check_places();    // no effect if sum_density() has called it
-  if (!announced) {
-    model->warn_of_ignored();
-    warned_step = noise_step = 0.0;
-    FluidState state(lmp, *engine, *exchange, *model);
-    state.run(1, not_fluid(), pressures());
-    if (comm->me == 0)
-      utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style, model->summary(dim, support),
-                     engine->instruction_set(), table.text(update->dt) + skin_text(table),
-                     state.table());
-    check_all_interact();
-    check.sizes(not_fluid());
-    check.state_times();
-    check.surface();
-    state.warn_of_density(style);
-    state.warn_of_support(style);
-    moving = 0.0;
-    check_elasticity(state);
-  }
-  announced = true;
+  log->begin_run(table, pressures());
   if (follows) check.followed_densities(densities_before);
   densities_before.clear();
   follows = false;
-  if (model->choice.thermal && update->dt != noise_step) announce_noise(table.fastest_rate());
-
-  if (!step_follows()) check_time_step(table);
+  if (!step_follows()) log->check_time_step(table);
   const StateRows states = engine->states();
   const auto heat = [&](int i) {
     return states.thermal_energy(i);
   };
   check.energies(heat, not_fluid());
-}
-
-/* ----------------------------------------------------------------------
-   Warn of a shear elasticity of the arrangement.  Check a fluid at rest again after the time look_after, unless it has
-   noise.  Shifting prevents such an elasticity.
-------------------------------------------------------------------------- */
-
-void Fluid::check_elasticity(FluidState &state)
-{
-  look_after = 0.0;
-  if (!shift->movers.empty()) return;
-  const double wait = state.warn_of_elasticity(style, moving);
-  if (!model->choice.thermal) look_after = wait;
-  moving = 0.0;
-}
-
-/* ----------------------------------------------------------------------
-   Return the line of the log about the fastest skin.  The line is empty with noise, since thermal motion goes to and fro,
-   and if new lists do not depend on how far particles have moved.
-------------------------------------------------------------------------- */
-
-std::string Fluid::skin_text(const CoeffTable &table) const
-{
-  if (model->choice.thermal || !neighbor->dist_check) return "";
-  return table.skin_text(neighbor->skin, update->dt, support, dim);
-}
-
-/* ----------------------------------------------------------------------
-   Log the noise.  Warn if it has no effect, if rate * dt is large, or if sqrt(kT/m)/c0 is large.  rate = of the fastest
-   viscous mode.
-------------------------------------------------------------------------- */
-
-void Fluid::announce_noise(double rate)
-{
-  noise_step = update->dt;
-  const std::string temperature = model->choice.own_temperatures
-      ? "the temperatures of the particles"
-      : fmt::format("temperature {:g}", model->choice.temperature);
-  if (comm->me == 0)
-    utils::logmesg(lmp,
-                   "Pair style {}: thermal noise of {}, seed {}, largest viscous rate times time "
-                   "step {:.3g}\n",
-                   style, temperature, model->choice.seed, rate * update->dt);
-  const bool other = model->constants().states || model->constants().conducts();
-  if (rate == 0.0 && !other &&
-      (model->choice.own_temperatures || model->choice.temperature > 0.0) && comm->me == 0)
-    error->warning(FLERR, "Pair style {}: temp has no effect without viscosity", style);
-  if (rate * update->dt > 1.001 * ACCURATE_NOISE && !viscous->active() && comm->me == 0)
-    error->warning(
-        FLERR,
-        "Pair style {}: the largest viscous rate times the time step is {:.4g}, above {:g}; "
-        "velocities between steps, and with them the structure of the fluid, are hotter "
-        "than the temperature of the noise",
-        style, rate * update->dt, ACCURATE_NOISE);
-  if (model->choice.own_temperatures || model->choice.eos == Eos::IDEAL) return;
-
-  double fastest = 0.0, fastest_all;    // sqrt(kT/m)/c0
-  for (int i = 0; i < atom->nlocal; i++) {
-    const TypeCoeff &coeff = model->coeffs[atom->type[i]];
-    if (!coeff.other && !is_boundary(i))
-      fastest = std::max(
-          fastest, sqrt(force->boltz * model->choice.temperature / atom->rmass[i]) / coeff.eos.c0);
-  }
-  MPI_Allreduce(&fastest, &fastest_all, 1, MPI_DOUBLE, MPI_MAX, world);
-  if (fastest_all > FAST_NOISE && comm->me == 0)
-    error->warning(
-        FLERR,
-        "Pair style {}: the thermal velocity sqrt(kT/m) of the lightest particles is {:.2g} c0, "
-        "above {:g}: the noise compresses the fluid; use a lower temperature, a larger "
-        "c0, or heavier particles",
-        style, fastest_all, FAST_NOISE);
 }
 
 /* ----------------------------------------------------------------------
@@ -1070,154 +879,6 @@ void Fluid::announce_noise(double rate)
 bool Fluid::step_follows() const
 {
   return !modify->get_fix_by_style("^sph/dt").empty();
-}
-
-/* ---------------------------------------------------------------------- */
-
-void Fluid::check_time_step(const CoeffTable &table)
-{
-  const double smallest = viscous->active() ? table.acoustic_step() : table.smallest_step();
-  if (!(update->dt > smallest) || update->dt == warned_step) return;
-  warned_step = update->dt;
-  if (comm->me == 0)
-    error->warning(FLERR,
-                   "The time step {:g} exceeds the largest stable time step {:g} of pair "
-                   "style {}",
-                   update->dt, smallest, style);
-}
-
-/* ----------------------------------------------------------------------
-   Return the coefficients and the largest stable time steps of the pairs of types, for the fluid as it is now.  All code
-   that needs the largest stable time step calls this function.  Of each type it takes the fastest particle, walls included,
-   with the speed of sound at its density and energy, and the smallest density of the fluid.  A type without particles
-   counts with its coefficients.
-   A heavy body pushes light fluid with its own modulus: its sound counts as sound in the light fluid, times 1/2, since the
-   body fills half of the kernel.  Walls act with the pressure of the fluid, and the pressure does not move walls: neither
-   the speed of sound nor the density of their type counts.
-------------------------------------------------------------------------- */
-
-CoeffTable Fluid::coeff_table()
-{
-  const double inertia = smallest_inertia();
-  const int n = atom->ntypes;
-  const Eos eos = model->choice.eos;
-  // maxima of v + acting c, c, acting c, v, rho0/rho (0: no fluid), and 0 fluid, 1 wall, 2 body
-  enum { SPEED, SOUND, ACTING, MOTION, THINNESS, KIND, NMOST };
-  std::vector<double> mine(NMOST * (n + 1), 0.0), all(NMOST * (n + 1));
-  const auto most = [n](std::vector<double> &of, int what, int type) -> double & {
-    return of[what * (n + 1) + type];
-  };
-
-  // the place of type 0, which does not exist, has the maximum of all types
-
-  double &fastest = most(mine, MOTION, 0);
-  const auto sound_of = sound();
-  const double lightest = boundary->has_bodies() ? lightest_fluid() : 0.0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int type = atom->type[i];
-    const TypeCoeff &coeff = model->coeffs[type];
-    if (coeff.other) continue;
-    const double rho = atom->rho[i], c = sound_of(i, rho), v = MathExtra::len3(atom->v[i]);
-    const bool body = boundary->is_body(i);
-    const double acting = body ? c * std::max(1.0, 0.5 * sqrt(coeff.eos.rho0 / lightest)) : c;
-    fastest = std::max(fastest, v);
-    const bool fluid = !is_boundary(i);
-    const double values[NMOST] = {acting + v,
-                                  c,
-                                  acting,
-                                  v,
-                                  fluid ? coeff.eos.rho0 / rho : 0.0,
-                                  body ? 2.0 : fluid ? 0.0 : 1.0};
-    for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
-  }
-  MPI_Allreduce(mine.data(), all.data(), NMOST * (n + 1), MPI_DOUBLE, MPI_MAX, world);
-  std::vector<bool> walls_alone(n + 1);
-  double slowest = HUGE_VAL, thinnest = HUGE_VAL;    // of the fluid
-  for (int i = 1; i <= n; i++) {
-    const bool empty = (most(all, SPEED, i) == 0.0), fluid = (most(all, THINNESS, i) > 0.0);
-    walls_alone[i] = !fluid && most(all, KIND, i) == 1.0;
-    if (fluid) {
-      slowest = std::min(slowest, most(all, SOUND, i));
-      thinnest = std::min(thinnest, model->coeffs[i].eos.rho0 / most(all, THINNESS, i));
-    }
-    if (empty && eos != Eos::IDEAL)
-      most(all, SPEED, i) = most(all, SOUND, i) = most(all, ACTING, i) = model->coeffs[i].eos.c0;
-    if (!fluid) most(all, THINNESS, i) = 1.0;
-  }
-  for (int i = 1; i <= n; i++)
-    if (walls_alone[i] && most(all, ACTING, i) > slowest) {
-      most(all, ACTING, i) = slowest;
-      most(all, SPEED, i) = most(all, MOTION, i) + slowest;
-    }
-  const auto density = [&](int i) {
-    return walls_alone[i] ? HUGE_VAL : model->coeffs[i].eos.rho0 / most(all, THINNESS, i);
-  };
-
-  const double h = stability_length(), hsq = h * h;
-  CoeffTable table(most(all, MOTION, 0));
-  const auto sound_step = [&](int type) {
-    const double speed = most(all, SPEED, type), c = most(all, ACTING, type);
-    return acoustic_step(h, speed, [&](double dt) {
-      const double more = model->stiffness(type, dt);
-      return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
-    });
-  };
-  for (int i = 1; i <= n; i++)
-    for (int j = i; j <= n; j++) {
-      const TypeCoeff &a = model->coeffs[i], &b = model->coeffs[j];
-      if (a.other || b.other) continue;
-      const double least = std::min(density(i), density(j));
-      const double rho = (least < HUGE_VAL) ? least : (thinnest < HUGE_VAL) ? thinnest : a.eos.rho0;
-      PairInertia damped;
-      damped.hsq = hsq;
-      damped.rho = rho;
-      damped.rho_inertia = rho * inertia;
-      damped.surface = boundary->has_symmetric_friction();
-      double diffusion_of = 0.0;
-      if (model->choice.delta > 0.0) {
-        const auto stiffness = [&](int type) {
-          const double c = most(all, SOUND, type);
-          return model->coeffs[type].eos.rho0 * c * c;
-        };
-        diffusion_of = diffusion_rate(model->choice.delta, 0.5 * support, hsq,
-                                      std::max(stiffness(i), stiffness(j)),
-                                      0.5 * (a.eos.impedance() + b.eos.impedance()));
-      }
-      table.add_row(i, j, model->pair_fluid(i, j), damped, std::min(sound_step(i), sound_step(j)),
-                    diffusion_of);
-    }
-  if (boundary->has_contact()) table.add_contact(contact->largest_step());
-  return table;
-}
-
-/* ----------------------------------------------------------------------
-   Return the smallest reference density of the types of fluid particles, of all ranks; infinity without such particles.
-------------------------------------------------------------------------- */
-
-double Fluid::lightest_fluid() const
-{
-  double mine = HUGE_VAL;
-  for (int i = 0; i < atom->nlocal; i++)
-    if (has_type(atom->type[i]) && !is_boundary(i))
-      mine = std::min(mine, model->coeffs[atom->type[i]].eos.rho0);
-  return over_all(world, mine, MPI_MIN);
-}
-
-/* ----------------------------------------------------------------------
-   Return the function (i, rho) with the speed of sound of owned particle i at density rho, with its heat as it is now and
-   its states frozen; c0 for walls of a liquid, which have no heat.
-------------------------------------------------------------------------- */
-
-std::function<double(int, double)> Fluid::sound() const
-{
-  return [this, states = engine->states()](int i, double rho) {
-    const Eos eos = model->choice.eos;
-    const EosParams &par = model->coeffs[atom->type[i]].eos;
-    if (is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
-    const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
-        SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
-    return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
-  };
 }
 
 /* ---------------------------------------------------------------------- */
@@ -1239,45 +900,11 @@ int Fluid::number_of_heats()
   return NCHANNEL;
 }
 
-/* ----------------------------------------------------------------------
-   Return the smallest moment of inertia per mass, length^2, of all particles that have one; else UNLIMITED_STEP.
-------------------------------------------------------------------------- */
-
-double Fluid::smallest_inertia() const
-{
-  double mine = UNLIMITED_STEP;
-  if (spins) {
-    const double *const inertia = Fields::of(atom)->inertia;
-    for (int i = 0; i < atom->nlocal; i++)
-      if (inertia[i] > 0.0 && has_type(atom->type[i])) mine = std::min(mine, inertia[i]);
-  }
-  return over_all(world, mine, MPI_MIN);
-}
-
 /* ---------------------------------------------------------------------- */
 
 double **Fluid::extrapolated_spin() const
 {
   return spins ? Fields::of(atom)->omegaest : nullptr;
-}
-
-/* ---------------------------------------------------------------------- */
-
-double Fluid::stability_length() const
-{
-  return sqrt(stability_length_squared(kernel_slope_integral(model->choice.kernel, dim, support)));
-}
-
-/* ---------------------------------------------------------------------- */
-
-double Fluid::fall_time() const
-{
-  double mine = 0.0, largest;    // acceleration
-  for (int i = 0; i < atom->nlocal; i++)
-    if (has_type(atom->type[i]) && !is_boundary(i))
-      mine = std::max(mine, MathExtra::len3(atom->f[i]) / atom->rmass[i]);
-  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
-  return (largest > 0.0) ? sqrt(stability_length() / largest) : UNLIMITED_STEP;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -1303,7 +930,7 @@ bool Fluid::is_boundary(int i) const
 
 bool Fluid::has_type(int type) const
 {
-  return !model->coeffs[type].other;
+  return model->has_type(type);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -15,7 +15,6 @@
 #define LMP_SPH_DISSIPATION_FLUID_H
 
 #include "pointers.h"
-#include "sph_dissipation_table.h"
 
 #include <functional>
 #include <memory>
@@ -36,11 +35,11 @@ namespace SPHDissipation {
   class Engine;
   class Exchange;
   class FluidModel;
+  class FluidReport;
   struct ForceSum;
   class ContactStage;
   class ForceStage;
   template <class Space> class FlowStage;
-  class FluidState;
   class HostSpace;
   template <class Space> class LimitStage;
   class NeighborSearch;
@@ -48,6 +47,7 @@ namespace SPHDissipation {
   class OpenStage;
   class PairEnergyStage;
   class PairTally;
+  class Stability;
   struct StepData;
   template <class Space> class PressureStage;
   template <class Space> class StateStage;
@@ -99,6 +99,9 @@ namespace SPHDissipation {
     const std::unique_ptr<NoiseStage> noise;
     const std::unique_ptr<ViscousStage> viscous;
     const std::unique_ptr<TemperatureStage> temperature;    // implicit conduction
+
+    const std::unique_ptr<Stability> stability;    // largest stable time steps
+    const std::unique_ptr<FluidReport> log;        // lines and warnings of the log
 
     // Called by the pair style.  settings(), coeff(): for its commands; init(): at the start of every run; derive_anew():
     // after another command has changed coefficients, so that the next adopt() derives the parameters
@@ -195,18 +198,9 @@ namespace SPHDissipation {
     bool has_type(int type) const;    // its particles are of this fluid
     // Return the function with the pressure of owned particle i, with its states
     std::function<double(int i)> pressures() const;
-    // Return the function with the speed of sound of owned particle i, as it is now, at another density
-    std::function<double(int i, double rho)> sound() const;
     int dimension() const { return dim; }    // of the kernel
     Threads &team() const;                   // threads that share the work of the loops
     double support_radius() const { return support; }
-
-    // For the present fluid: return the largest stable time steps; return the smallest sqrt(h/a) of fluid particles, with
-    // the stability length h and the acceleration a (UNLIMITED_STEP without fluid particles)
-
-    CoeffTable coeff_table();
-    double fall_time() const;
-    void check_time_step(const CoeffTable &);    // warns once of each time step that is too large
 
    protected:
     int dim = 0;              // dimension of the kernel
@@ -249,14 +243,10 @@ namespace SPHDissipation {
     at_rest() const;    // strains are zero: in a minimization, and in a rerun, which has no strains
     double **extrapolated_spin() const;    // nullptr without spins
     int integrated = 0;                    // bits of the groups of its integrators
-    // Return true if the next neighbor list checks the speeds, or the expansion, of the particles
-    bool checks_speed() const;
-    bool checks_expansion() const;
 
    private:
-    bool shifted = false;      // by shift_in_step(), in this step
-    bool set_up = false;       // init() has run since the last pair_style or pair_coeff
-    bool announced = false;    // the table in the log has the present coefficients
+    bool shifted = false;    // by shift_in_step(), in this step
+    bool set_up = false;     // init() has run since the last pair_style or pair_coeff
     bool continued =
         false;    // the run continues the last one, with the velocities of its last step
     bool follows =
@@ -264,14 +254,8 @@ namespace SPHDissipation {
     std::vector<double> densities_before;    // densities of owned particles before such forces
     bool changed =
         false;    // coefficients, or motions of walls, differ from those of the last forces
-    double warned_step = 0.0;      // time step of the last warning
-    double noise_step = 0.0;       // time step of the last line about the noise in the log
     bool checks_places = false;    // the next forces, the first of a run, check_places()
     bigint shared_places = 0;      // pairs of particles in the same place at the last check
-    int fast_lists = 0;       // neighbor lists in a row with fast particles; -1: after the warning
-    bool expanded = false;    // check_expansion() has warned
-    double look_after = 0.0;    // time until check_elasticity() runs again; 0: never
-    double moving = 0.0;        // time since check_elasticity() ran
 
     // The forces of a step: the first ones of a run with a motion of its own; those that continue the motion of the last run,
     // with other coefficients or walls, or as they were; or later ones in a run
@@ -290,11 +274,7 @@ namespace SPHDissipation {
     void check_setup();
     void check_places();
     void remember_densities();
-    void check_speed();
-    void check_expansion();
-    void check_elasticity(FluidState &);
     void find_own_types();
-    void check_all_interact();
     bool step_follows() const;    // a fix sets the time step by the limits
     void derive_coeffs();
     void find_viscosities();
@@ -302,11 +282,6 @@ namespace SPHDissipation {
     void sum_density();
     void find_velocity();
     void find_temperature();
-    double stability_length() const;
-    double smallest_inertia() const;
-    double lightest_fluid() const;
-    std::string skin_text(const CoeffTable &) const;
-    void announce_noise(double rate);
   };
 
 }    // namespace SPHDissipation

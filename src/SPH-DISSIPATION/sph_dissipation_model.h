@@ -132,7 +132,11 @@ namespace SPHDissipation {
     std::string simd =
         "auto";    // pair loops; not in restart files, which another machine may read
     TypeCoeff *coeffs = nullptr;    // by type, from 1
-    bool shared = false;            // some types belong to other styles
+    bool has_type(int type) const
+    {
+      return !coeffs[type].other;
+    }                       // its particles are of this fluid
+    bool shared = false;    // some types belong to other styles
 
    private:
     // Coefficient that extract() returns: first the viscosities, then the coefficients of unlike types, then those of types

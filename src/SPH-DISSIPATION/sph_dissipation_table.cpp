@@ -13,7 +13,18 @@
 
 #include "sph_dissipation_table.h"
 
+#include "atom.h"
+#include "math_extra.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_channels.h"
+#include "sph_dissipation_contact.h"
+#include "sph_dissipation_diffusion_terms.h"
+#include "sph_dissipation_engine.h"
+#include "sph_dissipation_eos.h"
+#include "sph_dissipation_fields.h"
+#include "sph_dissipation_kernel.h"
+#include "sph_dissipation_model.h"
+#include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_solvers.h"
 #include "utils.h"
 
@@ -168,4 +179,180 @@ std::string CoeffTable::lines() const
     result += "\n";
   }
   return header + result;
+}
+
+/* ----------------------------------------------------------------------
+   Return the coefficients and the largest stable time steps of the pairs of types, for the fluid as it is now.  All code
+   that needs the largest stable time step calls this function.  Of each type it takes the fastest particle, walls included,
+   with the speed of sound at its density and energy, and the smallest density of the fluid.  A type without particles
+   counts with its coefficients.
+   A heavy body pushes light fluid with its own modulus: its sound counts as sound in the light fluid, times 1/2, since the
+   body fills half of the kernel.  Walls act with the pressure of the fluid, and the pressure does not move walls: neither
+   the speed of sound nor the density of their type counts.
+------------------------------------------------------------------------- */
+
+CoeffTable Stability::table() const
+{
+  const double inertia = smallest_inertia();
+  const int n = atom->ntypes;
+  const Eos eos = model.choice.eos;
+  // maxima of v + acting c, c, acting c, v, rho0/rho (0: no fluid), and 0 fluid, 1 wall, 2 body
+  enum { SPEED, SOUND, ACTING, MOTION, THINNESS, KIND, NMOST };
+  std::vector<double> mine(NMOST * (n + 1), 0.0), all(NMOST * (n + 1));
+  const auto most = [n](std::vector<double> &of, int what, int type) -> double & {
+    return of[what * (n + 1) + type];
+  };
+
+  // the place of type 0, which does not exist, has the maximum of all types
+
+  double &fastest = most(mine, MOTION, 0);
+  const auto sound_of = sound();
+  const double lightest = boundary.has_bodies() ? lightest_fluid() : 0.0;
+  for (int i = 0; i < atom->nlocal; i++) {
+    const int type = atom->type[i];
+    const TypeCoeff &coeff = model.coeffs[type];
+    if (coeff.other) continue;
+    const double rho = atom->rho[i], c = sound_of(i, rho), v = MathExtra::len3(atom->v[i]);
+    const bool body = boundary.is_body(i);
+    const double acting = body ? c * std::max(1.0, 0.5 * sqrt(coeff.eos.rho0 / lightest)) : c;
+    fastest = std::max(fastest, v);
+    const bool fluid = !is_wall(i);
+    const double values[NMOST] = {acting + v,
+                                  c,
+                                  acting,
+                                  v,
+                                  fluid ? coeff.eos.rho0 / rho : 0.0,
+                                  body ? 2.0 : fluid ? 0.0 : 1.0};
+    for (int k = 0; k < NMOST; k++) most(mine, k, type) = std::max(most(mine, k, type), values[k]);
+  }
+  MPI_Allreduce(mine.data(), all.data(), NMOST * (n + 1), MPI_DOUBLE, MPI_MAX, world);
+  std::vector<bool> walls_alone(n + 1);
+  double slowest = HUGE_VAL, thinnest = HUGE_VAL;    // of the fluid
+  for (int i = 1; i <= n; i++) {
+    const bool empty = (most(all, SPEED, i) == 0.0), fluid = (most(all, THINNESS, i) > 0.0);
+    walls_alone[i] = !fluid && most(all, KIND, i) == 1.0;
+    if (fluid) {
+      slowest = std::min(slowest, most(all, SOUND, i));
+      thinnest = std::min(thinnest, model.coeffs[i].eos.rho0 / most(all, THINNESS, i));
+    }
+    if (empty && eos != Eos::IDEAL)
+      most(all, SPEED, i) = most(all, SOUND, i) = most(all, ACTING, i) = model.coeffs[i].eos.c0;
+    if (!fluid) most(all, THINNESS, i) = 1.0;
+  }
+  for (int i = 1; i <= n; i++)
+    if (walls_alone[i] && most(all, ACTING, i) > slowest) {
+      most(all, ACTING, i) = slowest;
+      most(all, SPEED, i) = most(all, MOTION, i) + slowest;
+    }
+  const auto density = [&](int i) {
+    return walls_alone[i] ? HUGE_VAL : model.coeffs[i].eos.rho0 / most(all, THINNESS, i);
+  };
+
+  const double h = length(), hsq = h * h;
+  CoeffTable table(most(all, MOTION, 0));
+  const auto sound_step = [&](int type) {
+    const double speed = most(all, SPEED, type), c = most(all, ACTING, type);
+    return acoustic_step(h, speed, [&](double dt) {
+      const double more = model.stiffness(type, dt);
+      return (more > 0.0) ? most(all, MOTION, type) + sqrt(c * c + more) - speed : 0.0;
+    });
+  };
+  for (int i = 1; i <= n; i++)
+    for (int j = i; j <= n; j++) {
+      const TypeCoeff &a = model.coeffs[i], &b = model.coeffs[j];
+      if (a.other || b.other) continue;
+      const double least = std::min(density(i), density(j));
+      const double rho = (least < HUGE_VAL) ? least : (thinnest < HUGE_VAL) ? thinnest : a.eos.rho0;
+      PairInertia damped;
+      damped.hsq = hsq;
+      damped.rho = rho;
+      damped.rho_inertia = rho * inertia;
+      damped.surface = boundary.has_symmetric_friction();
+      double diffusion_of = 0.0;
+      if (model.choice.delta > 0.0) {
+        const auto stiffness = [&](int type) {
+          const double c = most(all, SOUND, type);
+          return model.coeffs[type].eos.rho0 * c * c;
+        };
+        diffusion_of = diffusion_rate(model.choice.delta, 0.5 * model.constants().support, hsq,
+                                      std::max(stiffness(i), stiffness(j)),
+                                      0.5 * (a.eos.impedance() + b.eos.impedance()));
+      }
+      table.add_row(i, j, model.pair_fluid(i, j), damped, std::min(sound_step(i), sound_step(j)),
+                    diffusion_of);
+    }
+  if (boundary.has_contact()) table.add_contact(contact.largest_step());
+  return table;
+}
+
+/* ----------------------------------------------------------------------
+   Return the smallest reference density of the types of fluid particles, of all ranks; infinity without such particles.
+------------------------------------------------------------------------- */
+
+double Stability::lightest_fluid() const
+{
+  double mine = HUGE_VAL;
+  for (int i = 0; i < atom->nlocal; i++)
+    if (model.has_type(atom->type[i]) && !is_wall(i))
+      mine = std::min(mine, model.coeffs[atom->type[i]].eos.rho0);
+  return over_all(world, mine, MPI_MIN);
+}
+
+/* ----------------------------------------------------------------------
+   Return the function (i, rho) with the speed of sound of owned particle i at density rho, with its heat as it is now and
+   its states frozen; c0 for walls of a liquid, which have no heat.
+------------------------------------------------------------------------- */
+
+std::function<double(int, double)> Stability::sound() const
+{
+  return [this, states = engine.states()](int i, double rho) {
+    const Eos eos = model.choice.eos;
+    const EosParams &par = model.coeffs[atom->type[i]].eos;
+    if (is_wall(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
+    const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
+        SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
+    return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
+  };
+}
+
+/* ----------------------------------------------------------------------
+   Return the smallest moment of inertia per mass, length^2, of all particles that have one; else UNLIMITED_STEP.
+------------------------------------------------------------------------- */
+
+double Stability::smallest_inertia() const
+{
+  double mine = UNLIMITED_STEP;
+  if (model.constants().spins()) {
+    const double *const inertia = Fields::of(atom)->inertia;
+    for (int i = 0; i < atom->nlocal; i++)
+      if (inertia[i] > 0.0 && model.has_type(atom->type[i])) mine = std::min(mine, inertia[i]);
+  }
+  return over_all(world, mine, MPI_MIN);
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Stability::length() const
+{
+  const Constants &par = model.constants();
+  return sqrt(stability_length_squared(kernel_slope_integral(par.kernel, par.dim, par.support)));
+}
+
+/* ---------------------------------------------------------------------- */
+
+double Stability::fall_time() const
+{
+  double mine = 0.0, largest;    // acceleration
+  for (int i = 0; i < atom->nlocal; i++)
+    if (model.has_type(atom->type[i]) && !is_wall(i))
+      mine = std::max(mine, MathExtra::len3(atom->f[i]) / atom->rmass[i]);
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
+  return (largest > 0.0) ? sqrt(length() / largest) : UNLIMITED_STEP;
+}
+
+/* ---------------------------------------------------------------------- */
+
+bool Stability::is_wall(int i) const
+{
+  return atom->mask[i] & boundary.bits();
 }

@@ -14,8 +14,10 @@
 #ifndef LMP_SPH_DISSIPATION_TABLE_H
 #define LMP_SPH_DISSIPATION_TABLE_H
 
+#include "pointers.h"
 #include "sph_dissipation_steps.h"
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -23,6 +25,10 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
+  class BoundaryStage;
+  class ContactStage;
+  class Engine;
+  class FluidModel;
   struct PairInertia;
   struct TypePair;
 
@@ -72,6 +78,42 @@ namespace SPHDissipation {
     double viscous = UNLIMITED_STEP, dissipative = UNLIMITED_STEP, heat = UNLIMITED_STEP;
 
     static double rate_of(double step) { return (step < UNLIMITED_STEP) ? 1.0 / step : 0.0; }
+  };
+
+  // Largest stable time steps of a fluid as it is now.  All ranks call these functions.
+
+  class Stability : protected Pointers {
+   public:
+    Stability(class LAMMPS *lmp, const FluidModel &model, Engine &engine,
+              const BoundaryStage &boundary, const ContactStage &contact) :
+        Pointers(lmp),
+        model(model), engine(engine), boundary(boundary), contact(contact)
+    {
+    }
+
+    // Return the coefficients and the largest stable time steps of all pairs of types
+
+    CoeffTable table() const;
+
+    // Return the smallest sqrt(h/a) of fluid particles, with the stability length h and the acceleration a
+    // (UNLIMITED_STEP without fluid particles)
+
+    double fall_time() const;
+
+    // Return the function with the speed of sound of owned particle i, as it is now, at another density
+
+    std::function<double(int i, double rho)> sound() const;
+
+   private:
+    const FluidModel &model;
+    Engine &engine;
+    const BoundaryStage &boundary;
+    const ContactStage &contact;
+
+    double length() const;    // h
+    double lightest_fluid() const;
+    double smallest_inertia() const;
+    bool is_wall(int i) const;    // of a wall or body
   };
 
 }    // namespace SPHDissipation
