@@ -80,7 +80,7 @@ int Bodies::of(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Find center, velocity, and inertia of all bodies.  Sums are about the last known center, so that they lose no digits.
+   Find center, velocity, and inertia of all bodies.  The sums are about the last known center: so sums lose no digits.
 ------------------------------------------------------------------------- */
 
 void Bodies::sum(double **velocity)
@@ -135,7 +135,7 @@ void Bodies::sum(double **velocity)
 }
 
 /* ----------------------------------------------------------------------
-   Find the principal axes and moments.  The moment is 0 about an axis without inertia, as that of a line or a point.
+   Find the principal axes and moments.  The moment about an axis without inertia is 0, as for a line or a point.
 ------------------------------------------------------------------------- */
 
 void Bodies::find_axes(Body &body) const
@@ -155,8 +155,8 @@ void Bodies::find_axes(Body &body) const
 }
 
 /* ----------------------------------------------------------------------
-   turn_along(): find I^-1 L along the principal axes; from_axes(): find this vector in space; set_acting(): set the acting
-   velocity
+   turn_along(): find omega = I^-1 L along the principal axes.  from_axes(): find omega along x, y, z.  set_acting(): set the
+   acting velocity and omega.  rotation_by(): find the rotation matrix for a time.
 ------------------------------------------------------------------------- */
 
 static void turn_along(const Bodies::Body &body, const double *angular, double *rate)
@@ -249,9 +249,9 @@ bool Bodies::start(bool keep)
 }
 
 /* ----------------------------------------------------------------------
-   Find the motion of a step.  The rotation has the angular velocity in the middle of the step.  If lagging, the angular
-   momentum, to which the torques are added, belongs to the orientation in the middle.  The forces of other styles are the
-   change of momentum in the first half of the step, less the forces of the pair style.
+   Find the motion of a step.  The rotation has the angular velocity in the middle of the step.  If lagging, the fix adds the
+   torques to an angular momentum that belongs to the orientation in the middle: turn this momentum back by half a step.  The
+   forces of other styles are the rate of momentum in the first half of the step, less the forces of the pair style.
 ------------------------------------------------------------------------- */
 
 void Bodies::advance(double extrapolation)
@@ -339,7 +339,7 @@ void Bodies::sum_forces(const std::function<const double *(int)> &force, double 
 }
 
 /* ----------------------------------------------------------------------
-   Return the rest of heat, see rest_of_heat(), for half a kick from the first velocity to the second velocity.
+   Return the missing heat of a body, see rest_of_heat(), for half a kick from velocity v to velocity v_after.
 ------------------------------------------------------------------------- */
 
 double Bodies::rest_between(const Body &body, const double *v, const double *angular,
@@ -438,7 +438,7 @@ void Bodies::accelerate(const double *forces,
     for (int d = 0; d < 3; d++) rows[WIDTH * k + d] = forces[WIDTH * k + d] / bodies[k].mass;
     turn_along(bodies[k], forces + WIDTH * k + 3, &rows[WIDTH * k + 3]);
   }
-  velocities(rows.data(), function);    // a field of accelerations is one of velocities
+  velocities(rows.data(), function);    // a rigid field, of accelerations here
 }
 
 /* ---------------------------------------------------------------------- */
@@ -446,7 +446,7 @@ void Bodies::accelerate(const double *forces,
 void Bodies::check(double **velocity) const
 {
   constexpr double MOST = 1.0e-8;
-  double mine[2] = {0.0, 0.0}, all[2];    // squares
+  double mine[2] = {0.0, 0.0}, all[2];    // largest squared difference, velocity
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & groupbit)) continue;
     double v[3];

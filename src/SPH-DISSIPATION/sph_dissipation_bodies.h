@@ -25,18 +25,18 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
   struct ForceSum;
 
-  // Rigid bodies of particles that another fix moves.  Finds place and velocity of each body from its particles, and
-  // extrapolates the acting velocity (the velocity in the forces) from the middle of the step to the end
+  // Rigid bodies of particles that another fix moves.  Finds place and velocity of each body from the particles of the body,
+  // and extrapolates the acting velocity (the velocity in the forces) from the middle of the step to the end
 
   class Bodies : public RigidMotions, protected Pointers {
    public:
     struct Body {
       double mass, x[3], v[3], omega[3];    // x: center of mass; v, omega: acting velocity
       double angular[3], inertia[6];        // angular momentum, about the center: xx yy zz xy xz yz
-      double v_end[3], angular_end[3];      // at the end of the last step
+      double v_end[3], angular_end[3];      // v and angular at the end of the last step
       double axis[3][3], moment[3];         // principal axes and moments; 0 without inertia
-      double v_middle[3], angular_middle[3];    // in the middle of the last step
-      double own[2][3], others[2][3];    // last force, torque: of the pair style; of all others
+      double v_middle[3], angular_middle[3];    // v and angular in the middle of the last step
+      double own[2][3], others[2][3];    // last force, torque: of the pair style; of other styles
       double rest;                       // see rest_of_heat()
       double rotation[3][3];             // rotation of the last step
     };
@@ -46,21 +46,21 @@ namespace SPHDissipation {
     {
     }
 
-    // At the start of a run: find the bodies: each molecule, or all particles as one body.  lagging: the fix that moves the
-    // bodies gives their particles the angular velocity of the orientation in the middle of the step
+    // At the start of a run, find the bodies: each molecule, or all particles as one body.  lagging: the fix that moves the
+    // bodies gives the particles the angular velocity of the orientation in the middle of the step
     void init(bool by_molecule, bool lagging);
 
     int size() const override { return static_cast<int>(bodies.size()); }
     const Body &operator[](int k) const { return bodies[k]; }
     int of(int i) const;    // body of an owned particle
 
-    // Get the acting velocity of its body at the place of an owned particle
+    // Set v to the acting velocity of the body of an owned particle, at the place of the particle
     void velocity_at(int i, double *v) const;
 
-    // At the start of a run: take the velocities of the particles; return whether the bodies still have the velocities of
-    // the end of the last step.  keep: if so, the acting velocity is vest of the particles
+    // At the start of a run, take the velocities of the particles; return whether the bodies still have the velocities of the
+    // end of the last step.  With keep, bodies with these velocities take the acting velocity from vest
     bool start(bool keep);
-    // After the particles have moved: set the acting velocity to the velocity in the middle of the step, plus this factor
+    // After the particles have moved, set the acting velocity to the velocity in the middle of the step plus extrapolation
     // times the increment since the end of the last step
     void advance(double extrapolation);
     void end_step();    // takes the velocities at the end of the step
@@ -68,8 +68,8 @@ namespace SPHDissipation {
     // Take the forces of the pair style on the owned particles, at the end of a step and at the start of a run
     void note_forces(const ForceSum *);
 
-    // Return the share of an owned particle in the energy that half a kick misses: the work of the forces of the pair style
-    // at the acting velocity, less their work at the velocity of the kick
+    // Return the share of an owned particle in the energy that the heat misses in half a kick: work of the forces of the pair
+    // style at the acting velocity, less work of these forces at the mean velocity of the kick
     double rest_of_heat(int i) const;
 
     void append(bool starts, RigidRows &) const override;
@@ -92,10 +92,10 @@ namespace SPHDissipation {
     const int groupbit;
     const std::string owner, id;
     bool by_molecule = false, lagging = false, begun = false;
-    std::unordered_map<tagint, int> number;    // of bodies, by molecule
+    std::unordered_map<tagint, int> number;    // index of a body, by molecule
     std::vector<tagint> names;
     std::vector<Body> bodies;
-    std::unordered_map<tagint, std::vector<double>> known;    // from a restart file
+    std::unordered_map<tagint, std::vector<double>> known;    // motions from a restart file
 
     void sum(double **velocity);
     void check(double **velocity) const;

@@ -26,8 +26,8 @@ namespace SPHDissipation {
   struct OpenImpact;
   struct Surface;
 
-  // Rigid bodies as unknowns of ViscousStage.  A body has six rows: velocity, and angular velocity along the principal axes.
-  // Forces and torques have the same rows.  All processors have the rows of all bodies.
+  // Rigid bodies as unknowns of ViscousStage.  A body has six numbers: velocity, and angular velocity along the principal
+  // axes; or force, and torque along these axes.  All processors have these rows of all bodies.
 
   struct RigidRows {
     std::vector<double> mass, before, guess, others;    // see ViscousStage
@@ -48,14 +48,14 @@ namespace SPHDissipation {
     // Add force(i) on the owned particles to the rows of forces and torques of the bodies
     virtual void add_forces(const std::function<const double *(int)> &, double *rows) const = 0;
 
-    virtual void act(const double *rows) = 0;    // rows = velocities on which the forces depend
+    virtual void act(const double *rows) = 0;    // set the velocities on which the forces depend
 
-    // Body k: mass, center of mass, and least moment of inertia, 0 without any
+    // Body k: mass, center of mass, and least principal moment of inertia > 0 (0 if there is none)
     virtual double mass(int k) const = 0;
     virtual const double *center(int k) const = 0;
     virtual double least_moment(int k) const = 0;
 
-    // Call function(i, acceleration) for each owned particle, by force and torque, along x, y, z, on each body
+    // Call function(i, acceleration) for each owned particle; forces: force and torque, along x, y, z, on each body
     virtual void accelerate(const double *forces,
                             const std::function<void(int, const double *)> &) const = 0;
 
@@ -63,7 +63,7 @@ namespace SPHDissipation {
     ~RigidMotions() = default;
   };
 
-  // Dry contact of a body with another one or with a wall: coefficients of restitution and of friction
+  // Dry contact of a body with another body or with a wall: coefficients of restitution and of friction
 
   struct ContactLaw {
     double restitution = 1.0, friction = 0.0;
@@ -76,8 +76,8 @@ namespace SPHDissipation {
    public:
     virtual int boundary_bit() const = 0;    // bit of the group of its particles
 
-    // Set Surface::omega of owned and ghost particles of the fix.  before: the normals are older than the last step; turn
-    // them by its motion
+    // Set Surface::omega of owned and ghost particles of the fix.  before: the normals are older than the last step: turn the
+    // normals by the motion of that step
 
     virtual void move_surface(BoundaryStage &, Surface *, bool before) = 0;
 
@@ -86,14 +86,14 @@ namespace SPHDissipation {
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 
-    // Return true if the friction is symmetric: it then has the velocity of the rigid body and the factor surface_factor(),
-    // instead of the values of set_boundary()
+    // Return true if the friction is symmetric: friction with the velocity of the rigid body, times surface_factor(), instead
+    // of friction with the values of set_boundary()
 
     virtual bool has_symmetric_friction() const { return false; }
 
-    // Set body[i] of owned particles to the number, from first on, of their body that the fluid moves; return the next
-    // number.  The particles of a body alone define its surface.  They have the pressure of frozen fluid, with the energy of
-    // the equation of state, see BoundaryStage::set_frozen()
+    // Set body[i] of owned particles in bodies that the fluid moves to the number of the body, from first on; return the next
+    // number.  The surface of a body depends on its own particles alone.  Particles of bodies have the pressure of frozen
+    // fluid, with the energy of the equation of state, see BoundaryStage::set_frozen()
 
     virtual bool has_bodies() const { return false; }
     virtual bool has_elastic_bodies() const
@@ -104,17 +104,17 @@ namespace SPHDissipation {
     virtual RigidMotions *rigid_motions() { return nullptr; }
     virtual const ContactLaw *contact() const { return nullptr; }    // of the bodies; nullptr: none
 
-    // Return true if the boundary has the mean pressure of the fluid, bulk viscosity included: friction is not symmetric
+    // Return true if the boundary has the mean pressure of the fluid, bulk term included: then friction is not symmetric
     virtual bool has_mean_pressure() const { return true; }
 
-    // Return whether heat passes the surface; set the values of particles in the conduction of heat, by
-    // BoundaryStage::set_heat(), or for increments of the temperatures (zero at the surface)
+    // gives_heat(): return whether heat passes the surface.  set_heat(): set the values of particles in heat conduction, by
+    // BoundaryStage::set_heat(); increments: for increments of the temperatures, which are zero at the surface
 
     virtual bool gives_heat() const { return false; }
     virtual void set_heat(BoundaryStage &, const Surface *, bool /*increments*/) {}
 
    protected:
-    ~Boundary() = default;    // nobody deletes a fix through this
+    ~Boundary() = default;    // no code deletes a fix through this class
   };
 
   // Interface of a fix with a buffer zone: its particles have a prescribed state, and enter the fluid or have left it.  The
@@ -124,21 +124,21 @@ namespace SPHDissipation {
    public:
     virtual int zone_bit() const = 0;     // bit of the group of its particles
     virtual int fluid_bit() const = 0;    // bit of the group of the fluid that ends at the zone
-    // Return whether a particle at x may have pairs of the length reach across the border of zone and fluid
+    // Return whether a particle at x may have pairs across the border of zone and fluid, if pairs are as long as reach
     virtual bool zone_near(const double *x, double reach) const = 0;
 
-    // Append numbers of this processor, equally many on each; set_states() gets the sums over all processors, in one message
-    // for all zones
+    // Append numbers of this processor, as many on each processor; set_states() gets the sums over all processors.  One
+    // message has the numbers of all zones
     virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;
 
-    // Set density and pressure of its owned particles by OpenStage::set_state()
+    // Set density and pressure of the zone's owned particles by OpenStage::set_state()
     virtual void set_states(OpenStage &, const double *sums) = 0;
 
-    // Take over the sums of this processor, in each force computation
+    // Take the force, work and heat of the zone on the fluid, of this processor, in each force computation
     virtual void set_impact(const OpenImpact &) = 0;
 
    protected:
-    ~OpenZone() = default;    // nobody deletes a fix through this
+    ~OpenZone() = default;    // no code deletes a fix through this class
   };
 
 }    // namespace SPHDissipation

@@ -36,13 +36,13 @@ namespace SPHDissipation {
     std::vector<int> wall;        // boundary particle of each row
     std::vector<bigint> first;    // place of each row, and the end
 
-    // All pairs that may come into the support before the next neighbor list: fluid particles, and their copies in
-    // SurfacePairs (empty without copies); spare particles fill up a row
+    // All pairs that may come into the support before the next neighbor list: the fluid particles, and the copies of these
+    // particles in SurfacePairs (empty without copies); spare particles fill up a row
 
     std::vector<Offset> candidate, candidate_copy;
 
-    // Pairs inside the support in this step: number in each row; fluid particles and copies, r, and F.  The first particle
-    // and a spare copy at the distance of the support radius, where F is 0, fill up a block
+    // Pairs inside the support in this step: number of pairs in each row; fluid particles, copies, r, and F.  The first
+    // particle and a spare copy at the distance of the support radius, where F is 0, fill up a block
 
     std::vector<int> count;
     std::vector<Offset> fluid, copy;
@@ -86,7 +86,7 @@ namespace SPHDissipation {
 
   struct BoundaryPairs {
     std::vector<BoundaryRows> of_thread;
-    // rows of the neighbor list with pairs, of each thread; particles in the pairs of each thread but the first, each once
+    // By thread: rows of the neighbor list with such pairs; particles in the pairs (not of the first thread), each once
     std::vector<std::vector<int>> rows, touched;
 
     template <class Function> void visit(Function &&function) const

@@ -11,9 +11,9 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Terms of pairs of a fluid particle f and a boundary particle w: vectors of f on the CPU, single pairs on a device.
-// Included in more than one namespace, see sph_dissipation_pair_terms.h; the namespace must also have larger(a, b) and
-// smaller(a, b).
+// Terms of pairs of a fluid particle f and a boundary particle w: Real is a vector of f on the CPU, one number on a device.
+// Files include this header in more than one namespace, see sph_dissipation_pair_terms.h; the namespace must also have
+// larger(a, b) and smaller(a, b).
 //
 // r = x_w - x_f; S. Adami, X. Y. Hu, N. A. Adams, J. Comput. Phys. 231, 7057 (2012)
 
@@ -36,10 +36,10 @@ template <class Real> SPH_INLINE Real height_above(const Surface &s, const Real 
   return larger(-s.depth - along(s.normal, r), Real() + CLOSEST * s.spacing);
 }
 
-// Return the factor of symmetric friction, (d + h)/d, with the distances d of f and h of w from the surface.  A velocity
-// that is linear in d and zero at the surface continues behind the surface as -h times the slope.  Friction with this
-// continuation is friction with the velocity of the body, times the factor.  Unknown surface: d is that of the first layer
-// of a lattice.
+// Return the factor of symmetric friction, (d + h)/d, with the distances d of f and h of w from the surface.  A relative
+// velocity that is linear in d and zero at the surface continues behind the surface as -h times the slope.  Friction with
+// this continuation is friction with the velocity of the body, times the factor.  Unknown surface: d is the distance of the
+// first layer of a lattice.
 
 template <class Real>
 SPH_INLINE Real surface_factor(const Surface &s, const Real *r, double support)
@@ -63,7 +63,7 @@ SPH_INLINE void add_distances(Real weight, Real height, Sums &total)
 }
 
 // Add f to the sums of w; return the distance of f from the surface.  kernel_weight = W(r), w_f = weight of f in the loops,
-// vol_0 = its mass over the reference density of its type.  F has the members u, vol, g of a Particle
+// vol_0 = mass of f over the reference density of its type.  F has the members u, vol, g of a Particle
 
 template <class Real, class F, class Number>
 SPH_INLINE Real add_fluid(const F &f, const Particle &w, const Real *r, Real kernel_weight,
@@ -104,7 +104,7 @@ SPH_INLINE void add_fluid_spin(const Real *spin, Real weight, Real height, const
   }
 }
 
-// Add the temperature of f, if it conducts heat, to the sums of w; weight_f = V_f W, slope = F, coefficient = that of w.
+// Add the temperature of f, if f conducts heat, to the sums of w; weight_f = V_f W, slope = F, coefficient: coefficient of w
 // F has the members vol, value, coefficient of a FlowRow
 
 template <class Real, class F, class Number>

@@ -42,18 +42,18 @@ static constexpr double STIFFNESS = 4.0;
 
 static constexpr double SLOW = 1.0e-4;
 
-// Reach of a tangential plane, and the length that keeps its weight finite, in spacings
+// Largest distance at which a tangential plane acts, and the length that keeps the weight finite, in spacings
 
 static constexpr double REACH = 1.5, SOFT = 0.5;
 
-// Depth of a particle below its plane, in spacings, below which it is one of an edge
+// Least depth, in spacings, of a particle below its tangential plane; a particle less deep belongs to an edge
 
 static constexpr double FLAT = 0.4;
 
 static constexpr int NROWS = 7;    // force, torque, heat of a body
 
 /* ----------------------------------------------------------------------
-   Return whether two bodies, or a body and a wall, have a law; the law of two bodies is the geometric mean of both.
+   Return whether two bodies, or a body and a wall, have a law of contact: of two bodies the geometric mean of their laws.
 ------------------------------------------------------------------------- */
 
 bool ContactStage::law_of(int body, int other, ContactLaw &law) const
@@ -81,15 +81,15 @@ double ContactStage::spacing(int i) const
   return spacing_of(engine.constants().dim, volume(i));
 }
 
-// ghosts reach as far as the support: so a plane acts on a ball that is a spacing nearer
+// Return the distance at which a plane acts: less than the support by a spacing, since ghosts are as far as the support
 
 double ContactStage::reach(double spacing) const
 {
   return std::min(REACH * spacing, engine.constants().support - spacing);
 }
 
-// Return the part of the stiffness of the balls of a body or wall: the finer one has the balls.  With the same spacing, two
-// bodies have half each, and a wall none: its surface is flatter than that of a body with edges.
+// Return the part of the stiffness for balls of a body or wall: 1 for the finer of two.  With the same spacing, each of two
+// bodies has 1/2; a wall has 0, since the surface of a wall is flatter than the surface of a body with edges.
 
 double ContactStage::share(int body, double spacing, int other, double spacing_of_other)
 {
@@ -105,7 +105,7 @@ bool ContactStage::is_ball(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Find the numbers of the bodies; stiffness and mobility are those of begin().
+   Find the bodies of all boundaries, in order; begin() sets stiffness and mobility.
 ------------------------------------------------------------------------- */
 
 void ContactStage::find_bodies()
@@ -119,8 +119,8 @@ void ContactStage::find_bodies()
 }
 
 /* ----------------------------------------------------------------------
-   The time step is stable if it is less than 2 over the frequency of a body whose whole surface is pressed from both sides,
-   by a body like it.
+   Set the largest stable time step, 2 over the frequency of a body with contacts on all of its surface, pressed from both
+   sides by a body like itself.
 ------------------------------------------------------------------------- */
 
 void ContactStage::begin()
@@ -269,7 +269,7 @@ void ContactStage::find()
 
 /* ----------------------------------------------------------------------
    Find normals and depths of the outer layers, on all sides.  All walls together are one arrangement.  A particle at an edge
-   or a corner, or one without normal, as that of a thin plate, is a ball.
+   or a corner, or a particle without normal, as in a thin plate, is a ball.
 ------------------------------------------------------------------------- */
 
 void ContactStage::find_surfaces(const Cells &cells, const std::vector<int> &owned)
@@ -304,8 +304,8 @@ void ContactStage::find_surfaces(const Cells &cells, const std::vector<int> &own
 
 /* ----------------------------------------------------------------------
    Find how deep a particle, a ball with the diameter of a spacing, is below the other surface.  The distance from the surface
-   is the mean of the distances from its planes and balls, as in implicit moving least squares; R. Kolluri, Proc. SODA, 1008
-   (2005).  The weight falls with the eighth power of the distance, so that planes round a corner do not matter.
+   is the mean of the distances from planes and balls of the surface, as in implicit moving least squares; R. Kolluri, Proc.
+   SODA, 1008 (2005).  The weight falls with the eighth power of the distance: planes round a corner do not matter.
 ------------------------------------------------------------------------- */
 
 void ContactStage::find_overlap(Pair &pair) const
@@ -320,7 +320,7 @@ void ContactStage::find_overlap(Pair &pair) const
     const Surface &plane = surface[j];
     const double radius = reach(plane.spacing), soft = SOFT * plane.spacing;
     double normal[3], q[3],
-        above;    // q: from the point of the plane, or the nearest one of the ball
+        above;    // q: from the point of the plane, or the nearest point of the ball
     MathExtra::sub3(place, atom->x[j], q);
     if (is_ball(j)) {
       const double length = MathExtra::len3(q);
@@ -338,7 +338,7 @@ void ContactStage::find_overlap(Pair &pair) const
     if (!(left > 0.0)) continue;
     const double part = left / (radius * radius), inverse = soft * soft / (rsq + soft * soft);
     const double weight = part * part * part * inverse * inverse * inverse * inverse;
-    const double change = -6.0 / left - 8.0 / (rsq + soft * soft);    // of the logarithm, along q
+    const double change = -6.0 / left - 8.0 / (rsq + soft * soft);    // of log(weight), along q
     weights += weight;
     distance += weight * above;
     for (int d = 0; d < 3; d++) {
@@ -379,8 +379,8 @@ void ContactStage::velocity_at(const double *point, int i, double *u) const
 }
 
 /* ----------------------------------------------------------------------
-   Sum the magnitudes of the elastic forces on each body: they bound the coefficients of damping and friction, so that these
-   do not reverse the velocity of the body within a step.
+   Sum the magnitudes of the elastic forces on each body.  These sums bound the coefficients of damping and friction: so
+   damping and friction do not reverse the velocity of the body within a step.
 ------------------------------------------------------------------------- */
 
 void ContactStage::sum_elastic()
@@ -397,9 +397,9 @@ void ContactStage::sum_elastic()
 }
 
 /* ----------------------------------------------------------------------
-   Add the forces.  While a ball leaves, its elastic force has the factor e^2, with the restitution e: then a contact gives
-   back the part e^2 of the energy that it has taken, whatever the masses and the shape of the contact.  Between slow speeds
-   of approach and departure the factor is linear.
+   Add the forces.  While a ball leaves, the elastic force has the factor e^2, with the restitution e: so a contact gives back
+   the part e^2 of the energy taken, whatever the masses and the shape of the contact.  Between slow speeds of approach and
+   departure, the factor is linear in the speed.
 ------------------------------------------------------------------------- */
 
 void ContactStage::add_forces()

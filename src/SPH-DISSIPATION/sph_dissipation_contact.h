@@ -30,7 +30,7 @@ namespace SPHDissipation {
 
   // Forces between bodies that touch each other or a wall.  The particles of the outer layer are balls; the surface of
   // another body is a mean of tangential planes.  The force on a ball below this surface acts at one point on both bodies;
-  // its energy depends on the places of the bodies alone.
+  // the energy of the force depends on the places of the bodies alone.
 
   class ContactStage : public Stage {
    public:
@@ -41,10 +41,10 @@ namespace SPHDissipation {
     {
     }
 
-    // After the forces: add the contact forces to the forces of LAMMPS, their work to the heating
+    // After the forces: add the contact forces to the forces of LAMMPS, and the work that bodies lose to the heating
     void run();
 
-    double energy(double *each_atom) const;    // on this processor; nullptr: to no particle
+    double energy(double *each_atom) const;    // of this processor; each_atom may be nullptr
     double largest_step() const { return step; }
 
     // Get force and torque, about the origin, of the bodies on a wall in the last step
@@ -53,22 +53,22 @@ namespace SPHDissipation {
     double memory_usage() const override;
 
    private:
-    // A ball of one body or wall, and the particles of another one near it
+    // A ball of one body or wall, and the particles near the ball of another body or wall
 
     struct Pair {
       int particle;         // the ball
       int body, other;      // numbers of the bodies, 0: walls
-      int first, number;    // of the particles in near
+      int first, number;    // place in near, and number, of the particles of the other body
       ContactLaw law;
       double stiffness;    // force over the overlap
 
       // in this step
 
-      double point[3], normal[3];    // of the contact; outward of the other one
+      double point[3], normal[3];    // contact point; normal outward of the other body
       double overlap;
-      double slope;    // of the distance from the other one, 1 at a plane
-      double u[3];     // velocity of the point relative to the other one
-      int partner;     // nearest particle of the other one
+      double slope;    // of the distance from the other body, 1 at a plane
+      double u[3];     // velocity of the point relative to the other body
+      int partner;     // nearest particle of the other body
     };
 
     // A body that the fluid moves
@@ -81,7 +81,7 @@ namespace SPHDissipation {
       double
           mobility;    // largest acceleration of a point of the surface by a force of 1 on this point
       double slow;     // speed below which a contact counts as at rest
-      double force;    // sum of the elastic forces of all its contacts in this step
+      double force;    // sum of the magnitudes of elastic forces on the body, in this step
     };
 
     BoundaryStage &boundary;
@@ -89,11 +89,11 @@ namespace SPHDissipation {
     std::vector<Body> bodies;        // by their number less 1
     std::vector<Surface> surface;    // by owned and ghost atom; spacing 0: not of the outer layer
     std::vector<double>
-        shift;    // from the place of a particle to the place in its body, not wrapped; three numbers
+        shift;    // vector from the wrapped to the unwrapped position of each particle
     std::vector<Pair> pairs;
     std::vector<int> near;
-    std::vector<double> on_walls;    // force and torque on each boundary, on all processors
-    bool active = false;             // some processor has pairs
+    std::vector<double> on_walls;    // force and torque on each boundary, sum over processors
+    bool active = false;             // any processor has pairs
     bigint surface_step = -1;
     double step, total_energy = 0.0;    // step: UNLIMITED_STEP before the first begin()
     bool warned = false;

@@ -54,15 +54,15 @@ namespace SPHDissipation {
   struct ParticleRows;
   struct StateRows;
 
-  // Loops run over pairs in blocks of as many as a vector has doubles, at most BLOCK.  Spare particles, BLOCK of them behind
-  // the owned and ghost ones, fill up the last block of a particle.
+  // Loops run over blocks of pairs.  A block has as many pairs as a vector has doubles, at most BLOCK.  BLOCK spare particles
+  // behind the owned and ghost particles fill up the last block of a particle.
 
   constexpr int BLOCK = 8;
 
   static_assert(NEIGHMASK < (1u << 29), "offsets of all neighbors have 32 bits");
 
-  // Input, output and scratch space of the two loops.  Pass 1 runs over a half neighbor list and leaves the pairs inside the
-  // support, and F of each, for pass 2.
+  // Input, output and scratch space of the two loops.  Pass 1 runs over a half neighbor list and stores the pairs inside the
+  // support, and F of each pair, for pass 2.
 
   struct LoopData {
     int inum;
@@ -75,12 +75,12 @@ namespace SPHDissipation {
     const int *type;             // read if the coefficients differ between types
     const double *zeta_term;     // zeta cdot/c of each particle (bulk volume)
     const double *viscosity;     // mu of each particle, if mu is not constant
-    const Excess *excess;        // owned and ghost; nullptr: of no particle
-    const double *weight;        // w, owned and ghost; nullptr if all are 1 and no loop reads it
+    const Excess *excess;        // owned and ghost; nullptr: no particle has an excess
+    const double *weight;        // w, owned and ghost; nullptr if all w are 1 and no loop reads w
     double *divergence;          // -sum_j V_j F r_ij.u_ij, accumulated by pass 2 (bulk volume)
     DensitySum *density;         // owned and ghost, accumulated by pass 1
     ForceSum *force;             // owned and ghost, accumulated by pass 2
-    double *side;                // rows of ChannelSums, owned and ghost, accumulated by pass 2
+    double *side;                // ChannelSums::rows, owned and ghost, accumulated by pass 2
 
     const Parameters *par;
 
@@ -98,7 +98,7 @@ namespace SPHDissipation {
     PairTally *tally;          // nullptr: none
   };
 
-  // Input of the loop of cohesion: A of two types, whether all types have the same A, numbers of CohesionKernel
+  // Input of the loop of cohesion.  coeff: A of two types; alike: all types have the same A; the rest is of CohesionKernel
 
   struct CohesionData {
     const CohesionRow *row;
@@ -115,8 +115,8 @@ namespace SPHDissipation {
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // sums for the gradient; flow, with the gradient
 
-  // Positions and indices of particles, sorted into cells; and of candidates for neighbors, relative to the corner of a
-  // cell.  Both have room for a vector of 16 numbers behind the last entry
+  // PlaceColumns: positions and indices of particles sorted into cells.  CandidateColumns: the same of candidates for
+  // neighbors, relative to the corner of a cell.  Both have room for a vector of 16 numbers behind the last entry
 
   struct PlaceColumns {
     const double *x[3];
@@ -129,8 +129,8 @@ namespace SPHDissipation {
     int n;
   };
 
-  // Bounds for the squares of the distances of candidates from a place.  Close candidates are below close, far candidates
-  // between close and bound; below safe, rounding errors cannot move a candidate out of the reach
+  // Limits of the squared distances of candidates from a place, in cutoffs of the list.  Close candidates are below close,
+  // far candidates between close and bound.  Below safe, rounding errors cannot move a candidate beyond the cutoff
 
   struct Reach {
     float close, safe, bound;
@@ -138,7 +138,7 @@ namespace SPHDissipation {
   struct Found {
     int *close, *far;    // indices of close and far candidates, written to
     int nclose, nfar;
-    bool doubt;    // a far one is not safe
+    bool doubt;    // a far candidate is not below safe
   };
 
   // Loops over the pairs of fluid and boundary particles of one thread
@@ -162,12 +162,12 @@ namespace SPHDissipation {
   struct LoopSet {
     const char *name;
     bool computes_slopes;    // pass 2 can compute F again, without spins
-    // pass 1: leaves the pairs inside the support; slopes: F of each; squares: F (e.u)^2 of each, for the rates of shear
+    // pass 1: stores the pairs inside the support; slopes: also F; squares: also F (e.u)^2, for the rates of shear
     Loop (*density)(Kernel, Volume, bool slopes, bool squares);
     Loop (*rates)(Volume);
     RateLoop shear_rates;
     Loop (*forces)(const Terms &, Bulk, Volume);
-    int (*channels)(const Terms &);    // bits of the channels that these terms heat
+    int (*channels)(const Terms &);    // returns the bits of the channels that these terms heat
     Loop (*noisy_forces)(const NoiseForm &);
     NoiseLoop (*noise_sums)(const NoiseForm &);
     NoiseLoop (*shared_work)(const NoiseForm &);
@@ -189,8 +189,8 @@ namespace SPHDissipation {
 
   extern const LoopSet loops_plain, loops_avx2, loops_avx512;
 
-  // Torque (micropolar) and heat per time, by channel, from the pairs: one row for each particle.  ForceSum has the heat of
-  // the first channel.
+  // Sums of pass 2 for each particle: torque (micropolar), then the heat per time of each channel but the first.  ForceSum
+  // has the heat of the first channel.
 
   struct ChannelSums {
     ChannelColumns columns = {false, 0};
@@ -205,7 +205,7 @@ namespace SPHDissipation {
     void resize(std::size_t n) { rows.resize(n * width); }
     double *torque(int i) { return rows.data() + (std::size_t) i * width; }
     const double *torque(int i) const { return rows.data() + (std::size_t) i * width; }
-    // Add the heat by channel to heat[]; return the heat of all channels; without the first channel
+    // add_heat(): add the heat of each channel but the first to heat[]; heat(): return the sum over these channels
     void add_heat(int i, double *heat) const
     {
       for (int c = 1; columns.bits >> c; c++)
@@ -233,7 +233,7 @@ namespace SPHDissipation {
     void end_row(int spare);    // fills up the last block
     double memory_usage() const { return bytes(rows, count, neighbor, first, slope); }
 
-    // Call function(i) for all particles of the pairs, for some of them several times, and for spare ones
+    // Call function(i) for all particles of the pairs, once or more often, and for spare particles
     template <class Function> void visit(Function &&function) const
     {
       for (const int i : rows) function(i);
@@ -248,17 +248,17 @@ namespace SPHDissipation {
     std::vector<double> slope;
   };
 
-  // Values that stages of one step leave for later stages, besides the arrays of the engine
+  // Values that stages of a step set for later stages, besides the arrays of the engine
   struct StepData {
     int not_fluid = 0;       // bits of groups whose particles have no drag: walls and open zones
     StepNoise noise = {};    // in pass 2
     PairTally *tally = nullptr;    // of each pair in pass 2
-    bigint nbeyond = 0;            // owned particles beyond the bound of the limit
+    bigint nbeyond = 0;    // owned particles with a bulk term beyond the bound of LimitStage
   };
 
   // Pair engine of the particle fluid styles: pass 1, a loop over the neighbor list, sums number density and its rate; pass
   // 2 sums forces and heating.  In between, the stages set the input of pass 2.  Each thread has some rows of the neighbor
-  // list and its own sums, which are added up at the end; loops with a tally of each pair run on one thread.
+  // list and its own sums, which the engine adds up at the end; loops with a tally of each pair run on one thread.
 
   class Engine : protected Pointers {
    public:
@@ -266,7 +266,7 @@ namespace SPHDissipation {
     ~Engine() override;
 
     // Choose the loops: simd = auto, for the widest vectors of this processor; none, avx2, or avx512.  Return false if
-    // processor or compiler do not have them
+    // processor or compiler do not have these instructions
     bool choose_loops(const std::string &simd);
 
     void set_threads(Threads *team) { threads = team; }    // the caller owns the team
@@ -277,21 +277,21 @@ namespace SPHDissipation {
     // Choose the loops for these parameters, which the loops read until the next call
     void setup(const Parameters &);
 
-    // Pass 1: set particle[] from atom->x and vest, spin[] from omegaest (micropolar), zero for nullptr; sum density[] of
-    // owned atoms (with the particle itself) and the contributions to ghost atoms.  slopes_read: stages, or other loops than
-    // that of the forces, read F
+    // Pass 1: set particle[] from atom->x and vest (nullptr: zero), spin[] from omegaest (micropolar; nullptr: zero).  Sum
+    // density[] of owned atoms (with the particle itself) and the contributions to ghost atoms.  slopes_read: stages, or
+    // loops other than the loop of the forces, read F
     void accumulate_density(NeighList *, double **vest, double **omegaest, bool slopes_read);
 
-    // Sum cdot of density[] again, from the velocities that the caller has set in particle[] on owned and ghost atoms, by
-    // the pairs of pass 1
+    // Sum cdot of density[] again, over the pairs of pass 1.  The caller has set the velocities in particle[] of owned and
+    // ghost atoms
     void accumulate_rates();
 
-    // Pass 2: sum force[] and side, from particle[] with vol and g set by the caller on owned and ghost atoms; add the drag
-    // of single particles
+    // Pass 2: sum force[] and side, and add the drag of single particles.  The caller has set vol and g in particle[] of
+    // owned and ghost atoms
     void accumulate_forces(NeighList *, const StepData &);
 
-    // Add the sums for the noise, before pass 2, or the heat that partners share, after pass 2, to noise.total of owned and
-    // ghost atoms, with room for the spare ones
+    // Add to noise.total, which has room for owned, ghost, and spare particles: before pass 2 the sums for the noise, by
+    // accumulate_numbers(); after pass 2 the heat that partners share, by accumulate_work()
     void accumulate_numbers(const NoiseForm &, const NoiseData &noise);
     void accumulate_work(const NoiseForm &, const NoiseData &noise);
 
@@ -301,23 +301,23 @@ namespace SPHDissipation {
     // Sum as accumulate_forces(), but without noise and linear in the velocities: the streams of the drag are 0
     void accumulate_friction(NeighList *, int not_fluid);
 
-    // After pass 2: sum the friction of the pairs in these rows, with these slopes and the noise of surfaces (nullptr:
-    // none), on this thread
+    // After pass 2, on this thread: sum the friction of the pairs in these rows, with these values of F and the noise of
+    // surfaces (nullptr: none)
     void accumulate_friction(SurfacePairs &, BoundaryRows &, double *slope, PairTally *,
                              const StepNoise *, int thread);
 
-    // Sum V_j F (e.u)^2 over j, for owned and ghost atoms, from the volumes in particle[] and the squares of pass 1; room
-    // for the spare ones.  set_square() sets the square of a pair from other velocities in particle[]
+    // Set rates of owned and ghost atoms, with room for spare particles, to sum_j V_j F (e.u)^2, from V in particle[] and F
+    // (e.u)^2 of pass 1.  set_square(): compute F (e.u)^2 of a pair from other velocities in particle[]
     void accumulate_shear_rates(std::vector<double> &rates);
     void set_square(int i, int j, bigint entry);
 
-    // Sum the rates that owned and ghost atoms get by the flow at a place, from flow[]; room for the spare ones
+    // Sum the rates of owned and ghost atoms, with room for spare particles, by flow[place], place in the list Flows
     void accumulate_flow(int place, std::vector<double> &rate);
 
     // After pass 2: add the forces of cohesion to force[], from rows of owned, ghost, and spare particles
     void accumulate_cohesion(const CohesionRow *);
 
-    // Sum the diffusion of volume, width numbers for each owned and ghost atom; room for the spare ones
+    // Sum the diffusion of volume: width numbers for each owned and ghost atom, with room for spare particles
     void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,
                               std::vector<SumBlock> &sums);
 
@@ -329,10 +329,10 @@ namespace SPHDissipation {
     // Add the drag of an owned particle to its force and, by channel, its heat per time; relative to rest if linear, and in
     // a minimization, which has no velocities
     void add_drag(int i, int not_fluid, bool linear, double *force_of, double *heat) const;
-    bool has_forces() const;    // force[] is of the owned and ghost atoms that are there now
+    bool has_forces() const;    // force[] belongs to the present owned and ghost atoms
 
-    // The pairs inside the support that pass 1 has found, for the sums of stages: call function(i, j, entry) for each pair,
-    // or for each pair in row ii of the neighbor list
+    // The pairs inside the support that pass 1 has found, for the sums of stages.  visit_pairs(): call function(i, j, entry)
+    // for each pair, or for each pair in row ii of the neighbor list
     const LoopData &pairs() const { return data; }
     double slope(int i, int j, bigint entry) const    // F
     {
@@ -381,8 +381,8 @@ namespace SPHDissipation {
     Field torques() { return {side.rows.data(), (std::size_t) side.width, has_spin() ? 3 : 0}; }
     Field spins() { return field(spin, has_spin() ? spin->w : nullptr, has_spin() ? 3 : 0); }
     double *zeta_term = nullptr;         // zeta cdot/c, set by the caller on owned and ghost atoms
-    double *state_pressure = nullptr;    // of the states, on owned and ghost atoms; unset without
-    std::vector<std::vector<FlowRow>> flow;    // by flow, of owned and ghost atoms
+    double *state_pressure = nullptr;    // owned and ghost atoms; unset without states
+    std::vector<std::vector<FlowRow>> flow;    // of owned and ghost atoms, by place in Flows
     std::vector<FlowRow> &heat() { return flow[HEAT_FLOW]; }
     std::vector<std::vector<double>> flow_rate;    // rates of each flow in the last forces
     std::vector<double> viscosity;                 // mu of atoms, if any mu is not constant
@@ -390,9 +390,9 @@ namespace SPHDissipation {
         energy;    // internal energy of owned and ghost atoms, if particles have temperatures (temp energy)
     void set_wall_energy(const double *);    // energy in the forces of walls, of owned atoms
     void forget_wall_energy();
-    std::vector<Excess> excess;    // of owned and ghost atoms; empty: of no particle
+    std::vector<Excess> excess;    // of owned and ghost atoms; empty: no particle has an excess
 
-    // group bits of the bodies; true: the next densities keep rho of bodies, see ParticleRows::add_offset()
+    // Group bits of bodies; keeps_bodies: the next densities do not change rho of bodies, see ParticleRows::add_offset()
     int body_bits = 0;
     bool keeps_bodies = false;
     double *divergence =

@@ -34,7 +34,7 @@ namespace SPHDissipation {
       for (int l = 0; l < LANES; l++) prefetch(at<N>(row, j[l + AHEAD]));
     }
 
-    // Particles and sums as rows of numbers
+    // A row: the struct of one particle or of its sums, read as WIDTH numbers
 
     template <class Row> constexpr int WIDTH = sizeof(Row) / sizeof(double);
 
@@ -51,9 +51,9 @@ namespace SPHDissipation {
 
     constexpr bool COMPUTES_SLOPES = LANES == 8;
 
-    // Pass 1: sum c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED.  Leave the pairs for pass
-    // 2; SLOPES: also F of each pair; SQUARES: also F (e.u)^2 (mg/fr2: F (r.u)^2).  q is at most 1, where W and F are zero,
-    // also for spare particles
+    // Pass 1: sum c_i = sum_j w_j W, cdot_i = -sum_j w_j F r_ij.u_ij, with w = 1 unless WEIGHTED.  Store the pairs for pass
+    // 2; SLOPES: also F of each pair; SQUARES: also F (e.u)^2 (mg/fr2: F (r.u)^2).  q = r/support, at most 1, where W and F
+    // are zero: so spare particles, which are far away, add nothing
 
     template <class K, bool WEIGHTED, bool SLOPES, bool SQUARES> void density_loop(LoopData &data)
     {
@@ -126,7 +126,7 @@ namespace SPHDissipation {
       for (int k = 0; k < AHEAD; k++) data.neighbor[next + k] = offset_of(data.spare);
     }
 
-    // Sum cdot alone, by the pairs of pass 1
+    // Sum cdot alone, over the pairs of pass 1
 
     template <bool WEIGHTED> void rate_loop(LoopData &data)
     {
@@ -161,7 +161,7 @@ namespace SPHDissipation {
       }
     }
 
-    // Sum V_j F (e.u)^2 over j, with mg/fr2 V_j F (r.u)^2, by the pairs of pass 1
+    // Add sum_j V_j F (e.u)^2 (mg/fr2: sum_j V_j F (r.u)^2) to rate[i], over the pairs of pass 1
 
     inline void shear_rate_loop(const LoopData &data, const double *vol, double *rate)
     {
@@ -182,7 +182,7 @@ namespace SPHDissipation {
     }
 
     // Coefficients of all pairs of types, a Row of N numbers for each pair.  If there are at most as many types as lanes,
-    // one vector has a number of type i with all types.
+    // the vector of_types[i][k] has number k of type i with all types.
     template <class Row> struct CoeffTable {
       static constexpr int N = WIDTH<Row>;
       const Row *const row;
@@ -203,7 +203,7 @@ namespace SPHDissipation {
       }
     };
 
-    // Coefficients of a block of pairs that Used::uses(); before load(), those of type 1
+    // Coefficients of a block of pairs: load() loads the ones that Used::uses(); before, of type 1 with itself
     template <class Row, class Used> struct Coeffs {
       static constexpr int N = WIDTH<Row>;
       Vec a[N];
@@ -268,7 +268,7 @@ namespace SPHDissipation {
       };
     };
 
-    // Load a block of pairs, with volume and g of the neighbors; return F = slope_of(r^2)
+    // Set pair to a block of pairs of one particle, and vol and g to the neighbors' values; return F = slope_of(r^2)
 
     template <class Form, class Slope>
     SPH_INLINE Vec load_pair(PairState &pair, const Particle &pi, const Particle *particle,
@@ -296,7 +296,7 @@ namespace SPHDissipation {
     }
 
     // Give the fluid all heat of pairs with a boundary.  The function is not inline and has a copy of the pair: otherwise
-    // the loops would keep the pairs of all rows in memory
+    // the loops would keep all pairs in memory instead of registers
 
     template <class Form>
     SPH_NOINLINE void give_boundary_heat(PairState &pair, const Excess *excess, int i,
@@ -317,8 +317,8 @@ namespace SPHDissipation {
       add_boundary_heat<Form>(pair, more, own.is_boundary + other[3]);
     }
 
-    // Sums of torque, and of heat of all channels but the first, in the columns of ChannelSums: adds to the rows of the
-    // neighbors and to the totals of particle i
+    // Sums of torque, and of heat of all channels but the first, in the columns of ChannelSums.  add() adds a block of pairs
+    // to the neighbors' sums and to the totals; add_total() adds the totals to the sums of particle i
 
     template <class Form> struct SideSums {
       static constexpr ChannelColumns COLUMNS = {Form::SPINS, Form::channels()};
@@ -365,8 +365,8 @@ namespace SPHDissipation {
     // Pass 2: sum forces and torques of the pressure and of the channels, and their heat, half to each partner
     // Form: the terms of the pairs
     // VOLUME: the bulk form P1 (64) with separate pair weights, and D_i = -sum_j V_j F r_ij.u_ij for its heat; else the form
-    // P1 (18), whose force is in g and whose heat follows from cdot
-    // Noise: random forces and torques of the pairs; Noise::ENERGY: their work on the motion is taken from the heat
+    // P1 (18), whose force is a part of g and whose heat follows from cdot
+    // Noise: random forces and torques of the pairs; Noise::ENERGY: the heat pays for the work of random forces
 
     template <class Form, bool VOLUME, bool WEIGHTED, class Noise = NoNoise>
     void force_loop(LoopData &data)
@@ -495,8 +495,8 @@ namespace SPHDissipation {
             }
             given += noise.given(square, rsq, pressing);
             if constexpr (Noise::CONDUCTS) {
-              // A wall gives its half to the fluid.  The heat given so far does not apply to a wall: a factor of zero
-              // removes it without loss of digits, however large it is.
+              // A wall gives its half of the heat to the fluid.  For pairs with a wall, the factor zero removes the heat
+              // given so far without loss of digits, however large this heat is.
               Vec half = heat - work;
               for (int c = 1; c < NCHANNEL; c++)
                 if (Form::heats(c)) half += pair.heat[c];
@@ -519,9 +519,9 @@ namespace SPHDissipation {
       }
     }
 
-    // Sum the heat that i gets from j, see NoiseStage::share_work(): by the work of both pressures (not of random pressures)
-    // and of the friction of the pair, at the mean velocities of the kick.  PairNoise::given_by_torque() has the square of
-    // the torques of the pair
+    // Add the heat that i gets from j to noise.total, see NoiseStage::share_work(): from the work of both pressures (not of
+    // random pressures) and of the friction of the pair, at the mean velocities of the kick.  PairNoise::given_by_torque()
+    // returns the part with the square of the torques of the pair
 
     template <class Form> void work_loop(const LoopData &data, const NoiseData &noise)
     {
@@ -599,7 +599,8 @@ namespace SPHDissipation {
       }
     }
 
-    // Sum a flow, after pass 2; ALIKE: all particles with a volume have the same coefficient
+    // Add the flow of each pair to the rates of both particles, after pass 2; ALIKE: all particles with a volume have the
+    // same coefficient
 
     template <bool ALIKE> void flow_loop(const LoopData &data, const FlowRow *row, double *rate)
     {
@@ -678,7 +679,7 @@ namespace SPHDissipation {
     }
 
     // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h: return F over the mean impedance, without
-    // the common factor of all a_ij.  ALIKE: all particles have the same impedance; leave it out as well
+    // the common factor of all a_ij.  ALIKE: all particles have the same impedance: return F
 
     template <bool ALIKE>
     SPH_INLINE Vec diffusion_slope(const DiffusionData &data, double own, const Offset *j,
@@ -690,7 +691,7 @@ namespace SPHDissipation {
         return slope_by_impedance(slope, own, gather(data.impedance, j));
     }
 
-    // Sum the terms of pressure_gradient()
+    // Sum the terms of pressure_gradient(), width_of_sums() numbers for each particle
 
     template <int DIM, bool ALIKE>
     void diffusion_sums(const LoopData &data, const DiffusionData &diffusion, double *sums)
@@ -727,7 +728,7 @@ namespace SPHDissipation {
           for (int m = 0; m < FOURS; m += 4) add_4_columns<WIDTH>(sums + m, j, on_j + m);
           for (int m = FOURS; m < N; m++) add_column<WIDTH>(sums + m, j, on_j[m]);
 
-          // few blocks have pairs of two impedances
+          // skip blocks without pairs of two impedances: few blocks have such pairs
 
           if constexpr (!ALIKE) {
             const Vec its = gather(diffusion.impedance, j), more = its - all(impedance);
@@ -746,7 +747,7 @@ namespace SPHDissipation {
       }
     }
 
-    // Sum dV_i/dt over V_i, and R_i, without the common factor
+    // Sum (dV_i/dt)/V_i and the residual R_i, two numbers for each particle, without the common factor of all a_ij
 
     template <int DIM, bool ALIKE>
     void diffusion_flow(const LoopData &data, const DiffusionData &diffusion, double *flow)
@@ -831,8 +832,8 @@ namespace SPHDissipation {
 #include "sph_dissipation_boundary_loops.h"
 #include "sph_dissipation_neighbor_loops.h"
 
-    // True for forms whose loops always have weights (1 with volume number).  Loops of the bulk form volume, of viscosities
-    // that are not constant, and of the noise also have weights
+    // True for forms whose loops always have weights (1 with volume number).  So have the loops of the bulk form volume, of
+    // viscosities that are not constant, and of the noise
 
     template <class F>
     constexpr bool IS_FULL =

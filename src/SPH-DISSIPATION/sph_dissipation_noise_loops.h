@@ -11,7 +11,7 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Thermal noise in the loops over the pairs of pass 1: the random forces of pass 2, and the sums that they need before;
+// Thermal noise in loops over the pairs that pass 1 has found: sums before pass 2, and the random forces of pass 2.
 // sph_dissipation_loops.h includes this file inside its namespace.
 
 #include "sph_dissipation_noise_terms.h"
@@ -45,7 +45,7 @@ struct OwnTemperatures {
   }
 };
 
-// Sum eta_i c_i = sum_j c_i gamma_ij xi_ij with the number xi_ij of i
+// Add eta_i c_i = sum_j c_i gamma_ij xi_ij to data.total, with the random number xi_ij that particle i has for the pair
 
 template <bool FR, bool BY_SQUARE, int ACROSS>
 void eta_loop(const LoopData &pairs, const NoiseData &data)
@@ -97,8 +97,8 @@ struct NoNoise {
   SPH_INLINE void begin(int) {}
 };
 
-// Noise of pass 2.  begin() draws the numbers of all pairs of a particle, two blocks at once, so that the long chains of
-// operations of both overlap; draw() then sets the noise of a block of pairs.
+// Noise of pass 2.  begin() draws the random numbers of all pairs of a particle, for two blocks of pairs at once: so the
+// long chains of operations of two blocks overlap.  draw() then sets the noise of one block.
 
 template <int ACROSS, bool SPIN, NoiseKind KIND, bool BY_SQUARE>
 struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQUARE> {
@@ -193,10 +193,10 @@ struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQU
     return sum;
   }
 
-  // Return the heat that i gets from j, on average over the noise.  Each particle pays for the kinetic energy that it gets
-  // by the impulses of a step.  Instead, each partner should pay half for the impulses of the pair, and a particle should
-  // pay all for the impulses of its random pressure.  square = random force of the pair times the sum of random force and
-  // friction; pressing = force over r, per P/c^2.  work_loop() sums the same for friction and pressures without noise.
+  // Return the heat that i gets from j, averaged over the noise.  The integrator takes the kinetic energy that a particle
+  // gets by the impulses of a step from the heat of the particle.  With this heat, each partner pays half for the
+  // impulses of the pair, and a particle pays all for its random pressure.  square = random force times (random force +
+  // friction) of the pair; pressing = force over r, per P/c^2.  work_loop(): for friction and pressures without noise.
 
   SPH_INLINE Vec given(Vec square, Vec rsq, Vec pressing) const
   {
@@ -206,7 +206,7 @@ struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQU
     return data.unequal ? heat + 0.25 * square * (data.mobility[i] - mobility) : heat;
   }
 
-  // Return this heat for the torques: on both, and on j, opposite on i
+  // Return the same heat for the torques, see add_torque()
 
   SPH_INLINE Vec given_by_torque(const Vec *on_both, const Vec *on_j) const
   {
@@ -227,7 +227,7 @@ struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQU
   const CoeffTable<NoiseCoeff> &table;
   Coeffs<NoiseCoeff, NoiseUses<ACROSS, SPIN, KIND, BY_SQUARE>> coeff;
   int i;
-  double *next_number, *next;    // kept by begin() for the pairs of i: random numbers, all else
+  double *next_number, *next;               // next values that begin() has kept for the pairs of i
   Vec mobility, pressure, spin_mobility;    // of j
 
   // Draw the random numbers of N blocks, and keep them
@@ -249,7 +249,7 @@ struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQU
     }
   }
 
-  // Keep the temperatures of a block; friction with a wall has temperature and heat of the fluid particle alone.
+  // Keep the temperatures of a block.  Friction with a wall has temperature and heat of the fluid particle alone.
 
   SPH_INLINE void keep_temperatures(const Offset *j)
   {
@@ -292,8 +292,8 @@ struct PairNoise : RandomForce<ACROSS, SPIN, KIND == NoiseKind::DIRECTED, BY_SQU
   }
 };
 
-// Draw count random numbers for each of the particles from ... to - 1 of n, and for some behind them; number c of particle k
-// is numbers[c * (n + BLOCK) + k]
+// Draw count random numbers for each of the particles from ... to - 1 of n, rounded up to whole vectors of particles; number
+// c of particle k is numbers[c * (n + BLOCK) + k]
 
 inline void particle_numbers(const NoiseData &data, NoiseChannel channel, int from, int to, int n,
                              int count, double *numbers)

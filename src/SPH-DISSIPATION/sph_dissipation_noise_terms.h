@@ -11,18 +11,18 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-// Random numbers of pairs, and the random forces that they give, on the host and on a device: included after
-// sph_dissipation_simd.h and sph_dissipation_words.h, or their counterparts for one pair, in the namespace of either; hence
-// without guard and namespace.
+// Random numbers and random forces of pairs, on host and device.  Files include this header inside a namespace, after
+// sph_dissipation_simd.h and sph_dissipation_words.h or after their counterparts for one pair: so the header has no guard
+// and no namespace.
 
 #include "sph_dissipation_random.h"
 
-// Numbers of a pair:
+// Random numbers of a pair, mean 0 and variance 1:
 //   forms along e only: 0 = along e, 1 = back
 //   1d, 2d: 0 = along e, 1 = across e, 2 = spin, 3 = back
 //   3d: 0 to 2 = vector
 //   3d with more, 16 bits each: 0 to 2 = vector, 3 = along e, 4 to 6 = vector of the spin, 7 = back
-// DIRECTED: the particle with the lower ID has "along e", the other one has "back".  A random flow of heat (never DIRECTED)
+// DIRECTED: the particle with the lower ID has "along e", its partner has "back".  A random flow of heat (never DIRECTED)
 // has the number "back", or number 3 after three-dimensional vectors.  Vectors and the flow belong to the particle with the
 // lower ID, and are opposite for the other particle.  Numbers along and across e need no sign, since e_ji = -e_ij.
 
@@ -77,8 +77,8 @@ struct NoiseStep {
   }
 };
 
-// Set the counter of a pair: both IDs, and the step.  IDs of more than 32 bits count with their lower 46 bits: the upper 14
-// of these join the upper bits of the step, which needs 4 of them.
+// Set the counter of a pair: both IDs, and the step.  IDs of 64 bits count with their lower 46 bits: the upper 14 of these
+// bits of each ID share the last word with the upper 4 bits of the step.
 
 SPH_INLINE void set_counter(Words *word, const NoiseStep &step, double tag_i, Vec tag_j)
 {
@@ -131,7 +131,7 @@ template <bool BY_SQUARE> SPH_INLINE Vec central_of(const Vec *coeff, Vec rsq)
     return coeff[CENTRAL];
 }
 
-// Return root; gamma_ij is root times reach of j, over c of i.  metric = r^2, or r for mg/fr
+// Return root = sqrt(F r^2/a_ij); gamma_ij of NoiseStage = root c_j sqrt(V_j)/c_i.  metric = r^2, or r for mg/fr
 
 template <bool BY_SQUARE>
 SPH_INLINE Vec root_of(const NoiseData &data, const Vec *coeff, Vec slope, Vec metric)
@@ -153,8 +153,8 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool BY_SQUARE> struct RandomFor
   Vec torque[3];    // torque on both, which balances the force
   Vec spin[3];      // torque on i, opposite on j
 
-  // Set from the numbers of PairNumbers, and the number along e if these have one.  coeff = numbers of NoiseCoeff;
-  // (dx, dy, dz) = r_ij; by_metric = vv/metric; inverse = 1/r^2 if VECTOR
+  // Set forces and torques from the numbers z of PairNumbers; along_e = random number along e, if there is one.  coeff =
+  // numbers of NoiseCoeff; (dx, dy, dz) = r_ij; vv = F V_i V_j; by_metric = vv/metric; inverse = 1/r^2 if VECTOR
 
   SPH_INLINE void set(const Vec *coeff, const Vec *z, Vec along_e, Vec dx, Vec dy, Vec dz, Vec vv,
                       Vec metric, Vec by_metric, Vec inverse)
@@ -171,7 +171,7 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool BY_SQUARE> struct RandomFor
       }
     }
 
-    // take the part of a vector across e, or different parts along and across e
+    // DIRECTED: the random vector acts across e only; else with different factors along and across e
 
     if constexpr (VECTOR) {
       const Vec strength = square_root(vv);
@@ -207,7 +207,7 @@ template <int ACROSS, bool SPIN, bool DIRECTED, bool BY_SQUARE> struct RandomFor
     if constexpr (VECTOR) fz += rest[2];
   }
 
-  // Add to the torque on both and to the torque on j, opposite on i
+  // Add the equal torques on i and j to on_both, and the torque on j that is opposite on i to on_j
 
   SPH_INLINE void add_torque(Vec *on_both, Vec *on_j) const
   {

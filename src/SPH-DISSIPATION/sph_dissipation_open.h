@@ -36,8 +36,8 @@ namespace SPHDissipation {
   struct EosParams;
   struct Particle;
 
-  // The plane between the fluid and a buffer zone, the space behind it, and a grid of nodes on it.
-  // Periodic directions lie in the plane, or the zone has a region.
+  // The plane between the fluid and a buffer zone, the space behind the plane, and a grid of nodes on the plane.
+  // Periodic directions of the box lie in the plane, or the zone has a region.
 
   class OpenPlane : protected Pointers {
    public:
@@ -47,8 +47,8 @@ namespace SPHDissipation {
     void set(char **arg);    // x y z nx ny nz length
     void set_region(const char *id) { region_id = id; }
     const std::string &region_name() const { return region_id; }
-    void init();                             // region and directions, which must fit the box
-    void set_nodes(double node_distance);    // grid of nodes, as far as box and region reach
+    void init();                             // sets region and directions, which must fit the box
+    void set_nodes(double node_distance);    // sets nodes on all of the plane in box and region
 
     // distance of a place from the plane, > 0 in the fluid
     double height(const double *x) const
@@ -59,24 +59,24 @@ namespace SPHDissipation {
     bool beside(const double *x) const;                  // beyond the sides of the zone
     bool beside(const double *x, double slack) const;    // ... by more than slack
 
-    // Distance of a place from the line along the normal through another one, and along that line, with periodic images
+    // Vector between two places, with periodic images: distance from the normal through the first place, and along the normal
     struct Offset {
       double beside, ahead;
       double distance() const { return std::sqrt(beside * beside + ahead * ahead); }
     };
     Offset offset(const double *from, const double *to) const;
 
-    bool is_at(const double *) const;    // has the point and the normal of these six numbers
+    bool is_at(const double *) const;    // true: point and normal are these six numbers
     bool limited() const { return region; }
 
     int nnodes() const { return count[0] * count[1]; }
     double node_distance() const { return std::max(step[0], count[1] > 1 ? step[1] : 0.0); }
 
-    // Call function(node, l) for the nodes within the radius of x in both directions of the plane; l[2] =
-    // how far x is from the node in each.
+    // Call function(node, l) for the nodes within the radius of x in both directions of the plane; l[2] = distance of x from
+    // the node along each direction.
     template <class Function> void near(const double *x, double radius, Function &&function) const;
 
-    // The nodes around the place of x on the plane, and their weights, whose sum is 1
+    // The nodes around the projection of x on the plane, and the weights of the nodes, with the sum 1
     struct Spot {
       int n;
       int node[4];
@@ -90,7 +90,7 @@ namespace SPHDissipation {
     const std::string owner;
     std::string region_id;
     Region *region = nullptr;
-    double tangent[2][3] = {};    // directions of the plane; in 2d only the first one counts
+    double tangent[2][3] = {};    // directions of the plane; 2d: only the first direction counts
     double lo[2] = {}, step[2] = {1.0, 1.0};
     int count[2] = {1, 1};
     bool periodic[2] = {};
@@ -137,9 +137,8 @@ namespace SPHDissipation {
     double u[3];      // velocity
   };
 
-  // Measures the fluid at the nodes of the plane: linear fits to the fluid within a radius, weighted with
-  // the kernel and the volumes; averages over time; the waves that have left.  The same on all
-  // processors.
+  // Measures the fluid at the nodes of the plane: linear fits to the fluid within a radius, weighted with the kernel and
+  // the volumes; averages over time; the waves that have left the fluid.  All processors have the same results.
 
   class OpenSamples : protected Pointers {
    public:
@@ -150,19 +149,19 @@ namespace SPHDissipation {
     void init();
     void set_times(double averaging_time, double memory);    // memory: longest lag, time units
 
-    // Measure at this time: begin(); add() each owned particle of the fluid; finish() with the sums over all processors of
-    // the numbers of append().  Until then, the functions below give results of the step before.
+    // To measure at a time, call begin(); add() for each owned particle of the fluid; finish() with the sums over all
+    // processors of the numbers of append().  Before finish(), the functions below return results of the step before.
     void begin(double time);
     void add(const double *x, double height, double volume, const OpenSample &, Kernel,
              double radius);
     void append(std::vector<double> &mine) const;
     void finish(double time, const double *all);
 
-    // Interpolate between the nodes; false if there is no fluid.
+    // Interpolate between the nodes; return false if there is no fluid.
 
     bool now(const Spot &, double height, int order, OpenSample &) const;    // order 1: with slope
-    bool average(const Spot &, OpenSample &) const;                          // over time
-    OpenWave wave(const Spot &, double time) const;                          // at a time before
+    bool average(const Spot &, OpenSample &) const;                          // mean over time
+    OpenWave wave(const Spot &, double time) const;                          // at a past time
     double distance(const Spot &) const;    // from the plane to the middle of the measured fluid
 
     void mean_at_plane(double *p, double *u) const;    // mean over all nodes, now
@@ -170,15 +169,15 @@ namespace SPHDissipation {
 
     double memory_usage() const;    // bytes
 
-    // state in a restart file
+    // State in a restart file
     std::vector<double> pack() const;
     bool unpack(const std::vector<double> &);    // false if the state has other nodes
 
    private:
     static constexpr int NVALUE = sizeof(OpenSample) / sizeof(double);
-    static constexpr int NWAVE = sizeof(OpenWave) / sizeof(double);    // the first values
+    static constexpr int NWAVE = sizeof(OpenWave) / sizeof(double);    // first of the NVALUE
 
-    // weighted sums of a node over the fluid; l = place along the plane from there, d = height
+    // Weighted sums over the fluid around a node; l = position along the plane relative to the node, d = height
 
     struct Sums {
       double weight, l[2], ll[3], d, dd;    // ll: l0 l0, l1 l1, l0 l1
@@ -186,10 +185,10 @@ namespace SPHDissipation {
     };
 
     struct Node {
-      double weight, distance;    // of the measured fluid: its weight, its distance from the plane
-      double value[NVALUE];       // at the node and that distance
+      double weight, distance;    // of the measured fluid: sum of weights, distance from the plane
+      double value[NVALUE];       // at the node and this distance
       double slope[NVALUE];       // along the normal
-      double mean[NVALUE];        // over time
+      double mean[NVALUE];        // mean over time
       double known;               // > 0: fluid was here at any time
     };
 
@@ -201,8 +200,8 @@ namespace SPHDissipation {
     const OpenPlane &plane;
     double averaging_time = 0.0, memory = 0.0;
     std::vector<Sums> my_sums, sums;
-    std::vector<Node> nodes, before;    // before: without the last time
-    std::deque<Past> history;           // the oldest first
+    std::vector<Node> nodes, before;    // before: before the last measurement
+    std::deque<Past> history;           // oldest first
 
     void fit(const Sums &, Node &) const;
     template <class Function>
@@ -218,14 +217,14 @@ namespace SPHDissipation {
     // owner: for messages
     OpenValues(class LAMMPS *lmp, const std::string &owner) : Pointers(lmp), owner(owner) {}
 
-    void read(Keywords &);    // Set the quantities of the keyword, if it is one of them.
+    void read(Keywords &);    // Set the quantities of the keyword, if the keyword has any.
     void check() const;
-    void init(bool needs_heat);    // finds the variables; heat must then be > 0
+    void init(bool needs_heat);    // finds the variables; needs_heat: heat must be > 0
 
     bool given(Quantity k) const { return is_given[k]; }
     bool vary() const { return any_variable; }
 
-    // Evaluate the variables now, for owned particles of the group; others have 0.
+    // Evaluate the variables now, for owned particles of the group; other particles get 0.
     void evaluate(int igroup);
 
     double memory_usage() const;    // bytes
@@ -263,9 +262,9 @@ namespace SPHDissipation {
 
     double averaging_time = 0.0;    // 0: by the support radius
     double clock = 0.0;             // time of the zone, which reset_timestep does not change
-    bool is_new = false;    // no particle has a state yet: the heat of each is that without waves
+    bool is_new = false;            // no particle has a state yet: each has the heat without waves
 
-    void read(Keywords &);    // Read the keyword, if it belongs to a condition.
+    void read(Keywords &);    // Read the keyword, if the keyword belongs to a condition.
     void check();             // Stop for keywords without an effect, and for too few keywords.
 
     void init(const FluidModel &);
@@ -284,20 +283,20 @@ namespace SPHDissipation {
     double prescribed_density(int i) const { return reference(i, ZONE).rho; }    // without waves
     double heat(int i) const { return reference(i, ZONE).q; }    // per mass, without waves
     double temperature(int i, const OpenState &) const;          // in the conduction of heat
-    double sound_at_rest(int i, bool of_zone) const;    // at the density rho0; also of the fluid
+    double sound_at_rest(int i, bool of_zone) const;             // speed at rho0, of zone or fluid
 
-    OpenState at_density(int i, const OpenState &, double rho) const;    // and the same entropy
-    void keep(int i, const OpenState &) const;    // the particle has this state
+    OpenState at_density(int i, const OpenState &, double rho) const;    // at the same entropy
+    void keep(int i, const OpenState &) const;    // gives the particle this state
 
-    // Density at which a particle has its internal energy, 0: not known.  No force computation changes this density; it
-    // migrates with the particle, also into restart files.
+    // Density at which a particle has its internal energy, 0: not known.  No force computation changes this density.  The
+    // density migrates with the particle, also into restart files.
 
     double &density_of_energy(int i) const;
 
-    // Functions of an owned particle of the fluid near the plane; more = its pressure beyond the equation of state
+    // Functions of an owned particle of the fluid near the plane; more = pressure of the particle beyond the equation of state
 
     OpenSample sample(int i, const Particle &, double more) const;
-    bool is_supersonic(int i, const Particle &) const;    // leaves faster than sound
+    bool is_supersonic(int i, const Particle &) const;    // the particle leaves faster than sound
 
    private:
     enum Kind { LAGGED, CHARACTERISTIC, FIXED };
@@ -313,13 +312,13 @@ namespace SPHDissipation {
     Kind kind = LAGGED;
     int order = -1;    // extrapolation of values from inside, kind fixed
 
-    // Reference state of waves at a particle of zone or fluid: the prescribed one, else the average of the fluid over time
+    // Reference state of waves at a particle of zone or fluid: the prescribed state, else the average of the fluid over time
 
     struct Reference {
       OpenPlane::Spot spot;
       double height;
-      bool known;          // there is an average, or none is needed
-      OpenSample mean;     // over time
+      bool known;          // there is an average, or no average is needed
+      OpenSample mean;     // average over time
       double p, rho, c;    // pressure, density, sound speed
       double q;            // heat per mass
       bool at_heat;        // the heat is prescribed, not the entropy
@@ -340,8 +339,8 @@ namespace SPHDissipation {
   class OpenBand;
 
   // Creates and deletes the particles at the far end of a buffer zone, before new neighbor lists.  Particles form rows along
-  // the normal of the plane.  When the last particle of a row moves on, create a copy behind it; delete particles beyond the
-  // end.  Results do not depend on the number of processors.
+  // the normal of the plane.  When the last particle of a row moves on, create a copy behind this particle; delete particles
+  // beyond the end of the zone.  Results do not depend on the number of processors.
 
   class ZoneLattice : protected Pointers {
    public:
@@ -353,22 +352,22 @@ namespace SPHDissipation {
     void set_spacing(double a) { given_spacing = a; }
     bool has_spacing() const { return given_spacing > 0.0; }
 
-    // distance of an owned particle from the next one of its row; instead of a spacing
+    // Distance of an owned particle from the next particle of the row; instead of a spacing
     typedef std::function<double(int i)> Distance;
     void set_distance(Distance f) { distance = std::move(f); }
     bool by_distance() const { return static_cast<bool>(distance); }
 
-    // Measure distance and width of the rows of a zone that is new: until the first renew().
+    // Measure width of rows, and distance of particles in rows, of a zone that is new: until the first renew().
     void init(double support, int fluid_bit);
     bool are_new() const { return unknown_sides; }
     double width() const { return 2.0 * half_width; }    // width of a row
-    double largest_spacing() const;                      // now, of all processors
+    double largest_spacing() const;                      // of present particles, all processors
 
-    // Note that particles have moved along the normal, by this at most.
+    // Add the largest distance by which particles have moved along the normal in a step.
     void note_motion(double most) { moved += most; }
 
-    // Delete and create particles.  Calls refresh(those) with owned particles that are new or have moved,
-    // to set their velocities and to make their distances known.
+    // Delete and create particles.  Calls refresh(indices) for owned particles that are new or have moved, to set their
+    // velocities and the values that their distances depend on.
     typedef std::function<void(const std::vector<int> &)> Refresh;
     void renew(const Refresh &refresh);
 
@@ -383,19 +382,19 @@ namespace SPHDissipation {
     int fluidbit = 0;
     double given_spacing = 0.0, spacing = 0.0, half_width = 0.0, support = 0.0;
     double moved = 0.0;
-    tagint highest = 0;           // highest ID that was ever given
-    bool unknown_end = true;      // the reach of the rows is not known
-    bool unknown_sides = true;    // the width of the rows, and others among them, are not known
+    tagint highest = 0;           // highest ID so far
+    bool unknown_end = true;      // where the rows end is not known
+    bool unknown_sides = true;    // width of rows, and other particles among them, are not known
     Distance distance;
 
-    double step(int i) const;    // from an owned particle to the next one of its row
+    double step(int i) const;    // from an owned particle to the next particle of the row
     double my_largest_spacing() const;
     double end() const;    // height where the zone ends
     void interrupt_ids();
     void find_rows();
     void remove_beyond();
     std::vector<int> last_ones(const OpenBand &) const;
-    // removed = particles of this processor that nobody has counted yet, change = of all processors
+    // removed = particles that this processor has deleted, not yet in change = change of the number on all processors
     bool fill(std::vector<int> &last, const OpenBand &, const Refresh &, bigint &removed,
               bigint &change);
     void check_alone(const OpenBand &) const;

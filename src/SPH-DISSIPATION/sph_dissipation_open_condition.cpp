@@ -43,8 +43,8 @@ void OpenValues::read(Keywords &key)
     const char *name;
     Quantity first;
     int n;
-    bool or_inside;      // can be taken from inside
-    const char *more;    // names of the values behind the first one
+    bool or_inside;      // the fluid inside can give the quantity
+    const char *more;    // names of the values behind the first value
   };
   static constexpr Keyword KEYWORDS[] = {{"velocity", VX, 3, true, "vy vz"},
                                          {"density", RHO, 1, true, ""},
@@ -237,7 +237,7 @@ double &OpenCondition::density_of_energy(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return whether a particle gets the prescribed heat: one that enters, and all particles of a new zone.
+   Return whether a particle gets the prescribed heat: entering particles do, and all particles of a new zone.
 ------------------------------------------------------------------------- */
 
 bool OpenCondition::gets_heat(int i, Side side) const
@@ -247,7 +247,7 @@ bool OpenCondition::gets_heat(int i, Side side) const
 }
 
 /* ----------------------------------------------------------------------
-   Return density and heat that a particle has.  A density that is not known is rho0.
+   Return the density and the heat of a particle; rho0 if the density is not known.
 ------------------------------------------------------------------------- */
 
 OpenState OpenCondition::own_state(int i, Side side) const
@@ -345,7 +345,7 @@ OpenCondition::Reference OpenCondition::reference(int i, Side side) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave at a particle of the zone; with condition lagged, the wave that left the fluid earlier and arrives now.
+   Return the wave at a particle of the zone; with condition lagged, the wave that left the fluid before and arrives now.
 ------------------------------------------------------------------------- */
 
 OpenWave OpenCondition::wave(const Reference &ref) const
@@ -357,8 +357,8 @@ OpenWave OpenCondition::wave(const Reference &ref) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the wave less its mean over time.  If one of velocity and state is given, and the other one is from inside, the
-   given one then holds in the mean over time.
+   Return the wave less the mean over time of the wave.  If velocity or state is given, and the other of the two is from
+   inside, then the given value holds in the mean over time.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::changes(const Reference &ref, double wave) const
@@ -367,8 +367,8 @@ double OpenCondition::changes(const Reference &ref, double wave) const
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocity of a particle of the zone.  The component along the plane is the prescribed one where fluid enters;
-   particles that leave keep their component.
+   Set u to the velocity of a particle of the zone.  The component along the plane is the prescribed component where fluid
+   enters; particles that leave keep their component.
 ------------------------------------------------------------------------- */
 
 void OpenCondition::velocity(int i, double *u) const
@@ -421,8 +421,8 @@ OpenState OpenCondition::state(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the state at another pressure and the same entropy; strain = part of the pressure from states, which does not
-   determine the density.
+   Return the state at another pressure and the same entropy; strain = pressure of states, on which the density does not
+   depend.
 ------------------------------------------------------------------------- */
 
 OpenState OpenCondition::at_pressure(int i, const Reference &ref, double p, double strain) const

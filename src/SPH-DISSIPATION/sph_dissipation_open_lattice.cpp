@@ -27,26 +27,26 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// The particles near the far end of a buffer zone, of all processors, in the zone or not
+// The particles of all processors near the far end of a buffer zone, of the zone or not
 
 class SPHDissipation::OpenBand : protected Pointers {
  public:
   // Collect the particles between two heights.
   OpenBand(class LAMMPS *, const OpenPlane &, int groupbit, double lo, double hi);
 
-  // Return whether a particle of the zone, or of any kind, is behind x, at most beside from the line through x.
+  // Return whether a particle of the zone, or of any kind, is behind x, closer than beside to the normal through x.
   bool has_behind(const double *x, double beside, bool any_kind = false) const;
 
-  // Return the distance of the nearest particle of the zone behind x, or in front of x, at most beside from the line through
-  // x; infinite if there is none.
+  // Return the distance along the normal of the nearest particle of the zone behind x, or in front of x, closer than beside
+  // to the normal through x; infinite if there is none.
   double next(const double *x, double beside, bool behind) const;
 
-  // Return whether any particle, or one that is not of the zone, is closer to x than this distance.
+  // Return whether any particle (other: any particle not of the zone) is closer to x than this distance.
   bool has_near(const double *x, double distance, bool other = false) const;
 
  private:
   const OpenPlane &plane;
-  std::vector<double> place;    // 3 each
+  std::vector<double> place;    // x y z of each
   std::vector<char> of_zone;
   std::vector<std::vector<int>> at_node;    // particles next to each node of the plane
 
@@ -88,8 +88,8 @@ int OpenBand::nearest_node(const double *x) const
 }
 
 /* ----------------------------------------------------------------------
-   Return whether function(k, offset from x) is true for any particle k at most reach beside x.  Until then, all of these and
-   some farther particles are tried.
+   Return whether function(k, offset from x) is true for any particle k closer than reach to the normal through x.  Calls the
+   function for all of these particles, and for some farther ones, until the result is true.
 ------------------------------------------------------------------------- */
 
 template <class Function>
@@ -153,8 +153,8 @@ void ZoneLattice::init(double support_in, int fluid_bit)
 }
 
 /* ----------------------------------------------------------------------
-   Give one particle of the zone the next free ID, if all IDs are consecutive.  Sorted dumps assume
-   that such IDs do not change while their number is the same (Dump::init() and Dump::sort()).
+   Give one particle of the zone the next free ID, if all IDs are consecutive.  Sorted dumps assume that consecutive IDs do
+   not change while the number of particles is the same (Dump::init() and Dump::sort()).
 ------------------------------------------------------------------------- */
 
 void ZoneLattice::interrupt_ids()
@@ -185,8 +185,8 @@ double ZoneLattice::step(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the height at which the zone ends, with a tolerance: a layer of a lattice that reaches the end
-   is on the same side of it as a whole, on any number of processors.
+   Return the height at which the zone ends, with a tolerance: a layer of a lattice at the end is as a whole on one side of
+   the end, on any number of processors.
 ------------------------------------------------------------------------- */
 
 double ZoneLattice::end() const
@@ -195,8 +195,8 @@ double ZoneLattice::end() const
 }
 
 /* ----------------------------------------------------------------------
-   Measure spacing and width of the rows at the particle nearest to the plane: the distance of the next
-   one straight behind it, and that of the nearest row.
+   Measure spacing and width of the rows at the particle nearest to the plane: the distance of the next particle straight
+   behind this particle, and the distance of the nearest row.
 ------------------------------------------------------------------------- */
 
 void ZoneLattice::find_rows()
@@ -309,7 +309,7 @@ void ZoneLattice::remove_beyond()
 }
 
 /* ----------------------------------------------------------------------
-   Return the owned particles that move into the fluid and have none behind them in their row.
+   Return the owned particles that move into the fluid and have no particle behind them in the row.
 ------------------------------------------------------------------------- */
 
 std::vector<int> ZoneLattice::last_ones(const OpenBand &band) const
@@ -326,8 +326,8 @@ std::vector<int> ZoneLattice::last_ones(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   Create a particle behind each of the last ones, and replace the last one by the new one in the list.  Return false if no
-   processor created any.  The mass between two particles of a row is the mass of one particle: so the distance of the new
+   Create a particle behind each last particle of a row, and replace the last by the new particle in the list.  Return false
+   if no processor created any.  The mass between two particles of a row is the mass of one particle: so the distance of the new
    particle is the harmonic mean of the distances at both places, to second order.
 ------------------------------------------------------------------------- */
 
@@ -397,10 +397,9 @@ void ZoneLattice::check_alone(const OpenBand &band) const
 }
 
 /* ----------------------------------------------------------------------
-   Give an error for gaps in the rows of a lattice, which must reach from the plane to the end of
-   the zone, and warn of fluid at the plane with neither a row nor a wall behind it.  Missing
-   particles at the end of rows that move into the fluid are created later.  A zone without a
-   lattice, such as one that the fluid has filled, has no rows.
+   Give an error for gaps in the rows of a lattice, which must fill the zone from the plane to the end, and warn of fluid at
+   the plane with neither a row nor a wall behind the fluid.  fill() later creates missing particles at the end of rows that
+   move into the fluid.  A zone without a lattice, such as a zone that the fluid has filled, has no rows.
 ------------------------------------------------------------------------- */
 
 void ZoneLattice::check_lattice(const OpenBand &band, double largest) const

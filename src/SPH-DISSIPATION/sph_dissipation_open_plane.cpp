@@ -83,8 +83,8 @@ bool OpenPlane::beside(const double *x, double slack) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the offset of the image that is least beside the normal: in a box that is not orthogonal, this image need not be
-   the closest one along the edges.
+   Return the offset of the image with the least distance from the normal: in a box that is not orthogonal, the closest image
+   along the edges may be another one.
 ------------------------------------------------------------------------- */
 
 OpenPlane::Offset OpenPlane::offset(const double *from, const double *to) const
@@ -126,7 +126,7 @@ void OpenPlane::check_box() const
 }
 
 /* ----------------------------------------------------------------------
-   Set two directions of the plane, along the periodic ones of the box if there are any in it.
+   Set two directions of the plane, along periodic directions of the box if there are any in the plane.
 ------------------------------------------------------------------------- */
 
 void OpenPlane::set_tangents()
@@ -159,7 +159,7 @@ void OpenPlane::set_tangents()
   }
 
   if (known == 0) {
-    double axis[3] = {0.0, 0.0, 0.0};    // axis farthest from the normal
+    double axis[3] = {0.0, 0.0, 0.0};    // coordinate axis farthest from the normal
     if (domain->dimension == 2)
       axis[2] = 1.0;
     else
@@ -282,8 +282,8 @@ void OpenSamples::init()
 }
 
 /* ----------------------------------------------------------------------
-   Begin to measure at a time; undo a measurement of the same time: forces are computed again at the start of a run, and
-   twice in a step with viscous rkl2 or implicit.
+   Begin to measure at a time; undo a measurement at the same time: LAMMPS computes forces again at the start of a run, and
+   the fluid computes forces twice in a step with viscous rkl2 or implicit.
 ------------------------------------------------------------------------- */
 
 void OpenSamples::begin(double time)
@@ -363,8 +363,8 @@ void OpenSamples::finish(double time, const double *all)
 }
 
 /* ----------------------------------------------------------------------
-   Fit a linear profile by least squares, along the plane, where a wall leaves fluid on one side of the
-   node only, and along the normal.  No slope where the fluid is too thin.
+   Fit a linear profile by least squares along the plane and along the normal: next to a wall, fluid is on one side of a node
+   only.  The slope is 0 along a direction in which the fluid is too thin.
 ------------------------------------------------------------------------- */
 
 void OpenSamples::fit(const Sums &sum, Node &node) const
@@ -393,8 +393,8 @@ void OpenSamples::fit(const Sums &sum, Node &node) const
 }
 
 /* ----------------------------------------------------------------------
-   Set the values to the means of of_node(node, k) over the nodes with fluid around a place; zero and
-   false if there are none.
+   Set the values to the weighted means of of_node(node, k) over the nodes with fluid around a place; set zero and return
+   false if there are no such nodes.
 ------------------------------------------------------------------------- */
 
 template <class Function>
@@ -432,7 +432,7 @@ bool OpenSamples::average(const Spot &spot, OpenSample &result) const
 }
 
 /* ----------------------------------------------------------------------
-   Interpolate the wave between two times, or return that of the first or of the last one.
+   Interpolate the wave between two times of the history, or return the first or the last wave.
 ------------------------------------------------------------------------- */
 
 OpenWave OpenSamples::wave(const Spot &spot, double time) const

@@ -178,7 +178,7 @@ void OpenStage::sum_impacts(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   Find the rows of the neighbor list near the plane of each zone, which have all its pairs with the fluid.
+   Find the rows of the neighbor list near the plane of each zone: these rows have all pairs of zone and fluid.
 ------------------------------------------------------------------------- */
 
 void OpenStage::find_rows(NeighList *list)

@@ -29,27 +29,27 @@ namespace SPHDissipation {
     double force[3], torque[3];    // torque about the origin, of forces and couples
     double power;                  // work and heat
 
-    // Add the force, or the couple, on a particle of the fluid; heat = of all channels but the first.
+    // Add the force, or the couple, on a particle of the fluid; heat = heat of all channels but the first.
     void add(const Particle &, const ForceSum &, double heat);
     void add(const Spin &, const double *couple);
   };
 
-  // Sets the density and pressure of particles of buffer zones that act in the pair forces, and sums up the impact of the
-  // zones on the fluid, over the pairs of a particle of a zone and one of the fluid.
+  // Sets density and pressure in the pair forces of particles of buffer zones, and sums the impact of the zones on the fluid,
+  // over the pairs of a particle of a zone and a particle of the fluid.
 
   class OpenStage : public Stage {
    public:
     using Stage::Stage;
 
-    void add(OpenZone *);       // no effect if it is there
-    void remove(OpenZone *);    // no effect if it is not there
+    void add(OpenZone *);       // no effect if the zone is there
+    void remove(OpenZone *);    // no effect if the zone is not there
     bool empty() const { return zones.empty(); }
     int bits() const { return zone_bits; }    // groups of all zones
     int bits_of(int fluid_bit) const;         // groups of the zones whose fluid has this bit
     double state_energy(int i) const;         // energy of the states, at the last densities
 
-    // Called by OpenZone::set_states(): set density and pressure of a particle, which keeps its bulk term; set its
-    // temperature in conduction, if the fluid conducts heat
+    // For OpenZone::set_states(): set density and pressure of a particle, which keeps its bulk term; set the temperature of a
+    // particle in conduction, if the fluid conducts heat
     void set_state(int i, double rho, double pressure);
     void set_temperature(int i, double temperature);
     const Particle &particle(int i) const { return engine.particle[i]; }
@@ -71,15 +71,15 @@ namespace SPHDissipation {
 
     void set_states();
 
-    // Zone of each owned and ghost particle: 0 fluid, k zone k - 1, -1 neither.  Groups change between two
-    // neighbor lists, and with them only the masks of owned particles.
+    // Zone of each owned and ghost particle: 0 fluid, k zone k - 1, -1 neither.  Groups change between two neighbor lists:
+    // then only the masks of owned particles are up to date.
     std::vector<double> zone_of;
 
     std::vector<std::vector<int>> rows;    // rows of the neighbor list near the plane of each zone
 
     PairSubset pairs;    // pairs of fluid and one zone
 
-    // Sums over these pairs; zero outside of impact(), whose work then is proportional to the number of pairs.
+    // Sums over these pairs; zero outside of impact(): so the time of impact() is proportional to the number of pairs.
     std::vector<ForceSum> forces;
     ChannelSums side;
     std::vector<double> divergence, flow;

@@ -25,8 +25,8 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Return P/c^2 for pass 2, from the pressure P with the bulk term (bulk density) or without (otherwise), the volume
-  // V = w/c, and the reference volume w
+  // Return P/c^2 for pass 2, from the pressure P with the bulk term (bulk density) or without the term (otherwise), the
+  // volume V = w/c, and the reference volume w
 
   SPH_FUNCTION double pressure_term(double total, double vol, double weight)
   {
@@ -34,8 +34,8 @@ namespace SPHDissipation {
     return total * c_inv * c_inv;
   }
 
-  // States and heat of owned particles, on the host or on a device, from densities, internal energies, and the rates of
-  // both.  The energies are those of the last forces.  See StateList and Eos.
+  // States and heat of owned particles, on the host or on a device, from densities, internal energies of the last forces, and
+  // the rates of densities and energies.  See StateList and Eos.
 
   struct StateRows {
     const TypeParameters *types;    // by type, from 1
@@ -46,10 +46,10 @@ namespace SPHDissipation {
     double *state[States::MOST];    // nullptr without room
     const double *by_walls =
         nullptr;    // energy of each particle in the forces of walls; nullptr: none
-    const double *rate[Flows::NUMBER] = {};    // by flows in the last forces; nullptr: none
+    const double *rate[Flows::NUMBER] = {};    // by each flow in the last forces; nullptr: none
     const double *shear_rate = nullptr;        // in the last forces
 
-    // Return the state of a channel with a single one; return its rate by the flow of the channel
+    // Return the state of a channel with a single state; return the rate of this state by the flow of the channel
     template <class Channel> SPH_FUNCTION double state_of(int i) const
     {
       return state[States::first<Channel>()][i];
@@ -62,8 +62,8 @@ namespace SPHDissipation {
 
     SPH_FUNCTION const States::Numbers &numbers(int i) const { return types[type[i]].states; }
 
-    // Set the states of a new particle at this temperature; negative: the particle already has its energy.  at_rest: the
-    // strains of all particles become zero
+    // Set the states of a new particle at this temperature; negative: the particle already has its energy.  at_rest: set the
+    // strains of any particle to zero
 
     SPH_FUNCTION void begin(int i, double temperature = -1.0, bool at_rest = false) const
     {
@@ -102,8 +102,8 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the pressure of the states; return what they add to mu; return their energy, or its elastic part; add the heat
-    // of the states per time to the heat by channel
+    // pressure(), viscosity(), energy(): return the sum over the states of pressure, addition to mu, and energy or elastic
+    // energy.  add_heat(): add the heat of the states per time to the heat of each channel
 
     SPH_FUNCTION double pressure(int i) const
     {
@@ -138,8 +138,8 @@ namespace SPHDissipation {
       });
     }
 
-    // Return the rate of the temperature at constant states and heat capacity: from the rate of the internal energy, less the
-    // work of the elastic pressure and of the states
+    // Return the rate of the temperature at constant states and heat capacity: rate of the internal energy, less the work of
+    // elastic pressure and states, over the heat capacity
 
     SPH_FUNCTION double temperature_rate(int i) const
     {
@@ -148,8 +148,8 @@ namespace SPHDissipation {
       return (desph[i] / rmass[i] - p * drho[i] / (rho[i] * rho[i])) / par.heat_capacity;
     }
 
-    // Return the heat: the internal energy less the elastic energy of the equation of state, less held(): the energy of
-    // states, and the energy in the forces of walls
+    // Return the heat: internal energy less elastic energy of the equation of state, less held().  held(): return the energy
+    // of the states and of the forces of walls
 
     SPH_FUNCTION double thermal_energy(int i) const
     {
@@ -157,7 +157,7 @@ namespace SPHDissipation {
     }
     SPH_FUNCTION double held(int i) const { return by_walls ? energy(i) + by_walls[i] : energy(i); }
 
-    // Return the temperature, 0 without heat capacity; return the internal energy at a temperature
+    // temperature(): return the temperature, 0 without heat capacity.  energy_at(): return the energy at a temperature
 
     SPH_FUNCTION double temperature(int i) const
     {
@@ -202,7 +202,7 @@ namespace SPHDissipation {
     double *viscosity = nullptr;        // mu, if mu of any type is not constant
     const PairCoeff *pair = nullptr;    // of types i and j: pair[i * par.ntypes_1 + j]
 
-    // group bits of bodies; true: these densities keep rho of bodies, see add_offset()
+    // Group bits of bodies; keeps_bodies: the densities of this step do not change rho of bodies, see add_offset()
     int body_bits = 0;
     bool keeps_bodies = false;
 
@@ -225,15 +225,15 @@ namespace SPHDissipation {
       vfrac[i] = vol;
     }
 
-    // Density continuity: replace c of an owned particle, a sum, by rho/m.  Add to rho the change of the sum since the last
-    // forces; at the first forces keep rho, or set rho0 if rho is 0.  Walls and open zones have the sum alone; so have
-    // bodies, until BoundaryStage::set_frozen() sets their density.  rho_sum of a body is minus the sum without its own
-    // body.
+    // Density continuity: replace c of an owned particle, the sum of pass 1, by rho/m.  Add the change of the sum since the
+    // last forces to rho; at the first forces keep rho, or set rho0 if rho is 0.  Walls and open zones keep c as the sum; so do
+    // bodies, until BoundaryStage::set_frozen() sets their density.  rho_sum of a body particle is minus the sum without
+    // particles of the same body.
 
     SPH_FUNCTION void add_offset(int i, int not_fluid) const
     {
       constexpr double LEAST =
-          0.1;    // of rho0, for spray, where the sum has lost nearly all neighbors
+          0.1;    // least rho over rho0: a particle of spray has hardly any neighbors in the sum
       double &sum = rho_sum[i];
       const double before = sum, mass = rmass[i] / weight[i * each];
       const double all = mass * density[i].c, rho0 = types[type[i]].eos.rho0;
@@ -255,7 +255,7 @@ namespace SPHDissipation {
       density[i].c = now / mass;
     }
 
-    // Set a density and a pressure P, see pressure_term(), that are not from pass 1; set volume and P/c^2
+    // Set density, volume, and P/c^2 of a particle to a density and a pressure P, see pressure_term(), not from pass 1
 
     SPH_FUNCTION void set_state(int i, double density_of, double total) const
     {
@@ -285,7 +285,7 @@ namespace SPHDissipation {
       return bound && beyond_bound(types[type[i]].zeta, bound[i]);
     }
 
-    // Return the coefficient of the bulk term in effect
+    // Return the coefficient of the bulk term that acts: at the viscosity of the particle, or within the bound
 
     SPH_FUNCTION double zeta(int i, const double *bound) const
     {
@@ -305,7 +305,7 @@ namespace SPHDissipation {
       shear_rate[i] = (square > 0.0) ? sqrt(square) : 0.0;
     }
 
-    // Set mu of an owned particle at its rate of shear; -1: not fluid, pairs take mu of the other particle
+    // Set mu of an owned particle at its rate of shear; -1 if not fluid: pairs then have mu of the fluid particle
 
     SPH_FUNCTION void set_viscosity(int i, int not_fluid) const
     {
@@ -331,8 +331,8 @@ namespace SPHDissipation {
       state_pressure[i] -= thermal_pressure(types[type[i]].eos, rho[i], held / rmass[i]);
     }
 
-    // Add the work of the pressure over this time to the internal energy of an owned particle.  The pressure is that of the
-    // new energy.
+    // Add the work of the pressure over this time to the internal energy of an owned particle, with the pressure at the new
+    // energy.
 
     SPH_FUNCTION void complete_energy(int i, double time, int not_fluid) const
     {
@@ -369,8 +369,8 @@ namespace SPHDissipation {
       flow[k][i].flux = 0.0;
     }
 
-    // Return whether an owned or ghost particle takes part in the diffusion of volume; set its input of the loops, with the
-    // pressure of the equation of state, since strains do not change.  integrated = bits of the groups whose volumes change
+    // diffuses(): return whether an owned or ghost particle takes part in the diffusion of volume.  set_diffusion(): set its
+    // row, with the pressure of the equation of state, since strains stay.  integrated = bits of groups whose volumes change
 
     SPH_FUNCTION bool diffuses(int i, int not_fluid, int integrated) const
     {
@@ -398,8 +398,8 @@ namespace SPHDissipation {
       return par.states ? p + state_pressure[i] : p;
     }
 
-    // Return the work per time of this pressure on the particle: of the thermal pressure, and of all else (this part becomes
-    // elastic energy or strain)
+    // Return the work per time of total_pressure() on the particle: by the thermal part, and by the rest, which becomes
+    // elastic energy or strain
 
     struct Work {
       double thermal, elastic;

@@ -25,8 +25,8 @@ namespace SPHDissipation {
 
   class BoundaryStage;
 
-  // The bodies of all boundaries as unknowns of ViscousStage.  The first processor has the rows of all bodies, the others
-  // have none; all processors call all functions
+  // The bodies of all boundaries as unknowns of ViscousStage, six rows for each body.  The first processor has all rows, the
+  // others have no rows; all processors call all functions
 
   class RigidStage : public Stage {
    public:
@@ -38,17 +38,17 @@ namespace SPHDissipation {
     }
 
     void find(bool starts);    // sets the rows, see RigidMotions::append()
-    int size() const;          // number of rows of this processor
+    int size() const;          // rows of this processor
     const RigidRows &of() const { return rows; }
 
-    // Call function(i, velocity) for each owned particle of a body; rows = of the first processor (nullptr on others)
+    // Call function(i, velocity) for each owned particle of a body; argument: rows of the first processor, else nullptr
     void velocities(const double *, const std::function<void(int, const double *)> &);
 
     // Return forces and torques on the bodies, on all processors, from force(i) on their particles; valid until the next
     // call
     const double *forces(const std::function<const double *(int)> &force);
 
-    void act(const double *);    // sets the acting velocities to these, of the first processor
+    void act(const double *);    // sets the acting velocities to the rows of the first processor
 
     double memory_usage() const override;
 

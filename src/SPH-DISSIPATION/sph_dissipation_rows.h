@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_ROWS_H
 #define LMP_SPH_DISSIPATION_ROWS_H
 
-// Input and sums of the pair loops, by particle.  No LAMMPS include.
+// Input and sums of the pair loops for each particle, the rows.  No LAMMPS include.
 
 #include "sph_dissipation_function.h"
 
@@ -23,8 +23,8 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Index of a particle in the lists of the loops, times 8: the distance in bytes in an array of doubles, from which the
-  // loops find the address of a row without a shift
+  // Index of a particle in the lists of the loops, times 8: the offset in bytes in an array of doubles, so that the loops
+  // need no shift for the address of a row
 
   typedef unsigned int Offset;
 
@@ -37,7 +37,7 @@ namespace SPHDissipation {
     return offset / sizeof(double);
   }
 
-  // The loops read and write these structures as rows of doubles; a GPU loads 16 bytes at once.
+  // A row: one of these structures, which the loops read and write as doubles; a GPU loads 16 bytes at once.
 
   // Input of the pair loops: one cache line
 
@@ -72,14 +72,14 @@ namespace SPHDissipation {
 
   struct alignas(16) Spin {
     double w[3];
-    double unused;    // rows are read by fours
+    double unused;    // loops read rows by four numbers
   };
 
-  // Velocity and spin of a boundary particle in the pair forces less its own ones; zero for other particles
+  // Velocity and spin of a boundary particle in the pair forces, less its own velocity and the spin of its body; else 0
 
   struct alignas(16) Excess {
     double u[3];
-    double is_boundary;    // 1
+    double is_boundary;    // 1 for a boundary particle
     double w[3];
     double crosses;    // 1 if its row of the neighbor list has pairs of the fluid with a boundary
   };

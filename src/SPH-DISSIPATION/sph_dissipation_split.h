@@ -118,15 +118,15 @@ namespace SPHDissipation {
     sum[2] += factor * (a[0] * b[1] - a[1] * b[0]);
   }
 
-  // Conserved quantities and state of a particle; velocities now (u, spin), and extrapolated to the end of the step (u_end,
-  // spin_end)
+  // A particle as splits and merges need it: conserved quantities, states, present velocity and spin (u, spin), and velocity
+  // and spin extrapolated to the end of the step (u_end, spin_end)
 
   struct Lump {
     double mass = 0.0;
-    double inertia = 0.0;    // per mass
+    double inertia = 0.0;    // per mass, length^2
     double energy = 0.0;     // internal energy, and its rate
     double energy_rate = 0.0;
-    double diffusion[3] = {};          // rates of the volume, now and before; rate of the energy
+    double diffusion[3] = {};    // by diffusion: rates of volume, now and before; rate of energy
     double state[MOST_STATES] = {};    // numbers from handed_on()
     double x[3] = {};
     double u[3] = {}, spin[3] = {};
@@ -142,8 +142,8 @@ namespace SPHDissipation {
     double d[MOST][3] = {};
   };
 
-  // Distance of the daughters from their parent along each axis, over the spacing: that of the centers of the parts of a
-  // cube if neighbors split as well, less for a particle that splits alone
+  // Distance of the daughters from their parent along each axis, over the spacing.  IN_BLOCK, where neighbors split as well:
+  // distance of the centers of the parts of a cube; less for a particle that splits alone
 
   constexpr double SPLIT_IN_BLOCK = 0.25;
   constexpr double SPLIT_ALONE = 0.2;
@@ -169,9 +169,9 @@ namespace SPHDissipation {
     return stencil;
   }
 
-  // Return the inertia per mass of the daughters.  rotate = false, with the inertia of the parent, if the daughters must not
-  // take part in the rotation: their places are not isotropic, so that they would precess, or too far apart, so that hardly
-  // any inertia would be left and the smallest torque would spin the daughters up.
+  // Return the inertia per mass of the daughters.  Set rotate to false, and return the inertia of the parent, if daughters
+  // must not take part in the rotation: daughters at places that are not isotropic would precess; daughters too far apart
+  // would have hardly any inertia left, and the smallest torque would spin these daughters up.
 
   inline double daughter_inertia(const Lump &parent, const Stencil &stencil, int dim, bool &rotate)
   {
@@ -203,7 +203,7 @@ namespace SPHDissipation {
     }
   }
 
-  // Angular momentum and kinetic energy of parts, relative to their center of mass
+  // Angular momentum and kinetic energy of particles that merge, relative to their center of mass x; mean: mean velocity
 
   struct InternalMotion {
     double angmom[3];
@@ -323,8 +323,8 @@ namespace SPHDissipation {
     }
   };
 
-  // Return the weight of a neighbor; it goes to zero at the radius: so round-off decides nothing at the edge, and results do
-  // not depend on the number of processors
+  // Return the weight of a neighbor.  The weight is zero at the radius: so round-off decides nothing, and results do not
+  // depend on the number of processors
 
   inline double shell_weight(double rsq, double radius)
   {
@@ -332,7 +332,7 @@ namespace SPHDissipation {
     return inside > 0.0 ? inside * inside : 0.0;
   }
 
-  struct Shell {
+  struct Shell {    // sums over the neighbors that take residual angular momentum
     double mass = 0.0;
     double mx[3] = {}, mu[3] = {};
     Symmetric mxx;
@@ -347,7 +347,7 @@ namespace SPHDissipation {
       mxx.add_product(weighted_mass, r);
     }
 
-    // Find the rotation of these neighbors with the angular momentum; return false if there is none
+    // Find the rigid rotation of these neighbors that has this angular momentum; return false if there is no rotation
 
     bool take(const double *angmom, int dim, Rotation &rotation) const
     {
@@ -387,8 +387,8 @@ namespace SPHDissipation {
       if (rsq > 0.0) near.add_product(1.0 / whole_power(rsq, 5), r);
     }
 
-    // Return the largest spacing of the three axes (the first of equal ones), for a particle of this volume; ratio = this
-    // spacing over the spacing of an isotropic arrangement
+    // Return the largest of the spacings along three axes (the first of equal ones), for a particle of this volume; ratio =
+    // this spacing over the spacing of an isotropic arrangement
 
     double widest(int dim, double volume, double *axis, double &ratio) const
     {

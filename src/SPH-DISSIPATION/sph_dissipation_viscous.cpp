@@ -47,8 +47,8 @@ void StiffStage::configure(const ViscousSettings &settings_in, int groups_in,
 }
 
 /* ----------------------------------------------------------------------
-   Set increment to the old acting less keep * now; then set acting to keep * now + scale * (f - own), where f - own are the
-   forces of other styles.
+   Set increment to acting - keep * now; then set acting to keep * now + scale * (f - own).  acting = velocity in the forces,
+   now = present velocity, f = total force, own = force of the pair style, so f - own = force of other styles.
 ------------------------------------------------------------------------- */
 
 static void carry(double scale, const double *f, const double *own, const double *now, double keep,
@@ -224,8 +224,8 @@ void ViscousStage::find_unknowns(const double *inertia)
 }
 
 /* ----------------------------------------------------------------------
-   Take the forces of other styles from vest, and set vest to the guess of the integrator.  If the order of the particles may
-   have changed, set vest to v-; so at the start of a run, where vest has no forces.
+   Take the forces of other styles from vest, and set vest to the guess of the integrator.  Set vest to v- if the order of the
+   particles may have changed, and at the start of a run, when vest contains no forces.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_guess()
@@ -291,7 +291,7 @@ void ViscousStage::gather()
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocities of owned and ghost particles for the loops.  These are increments: known particles have 0.
+   Set the velocities of owned and ghost particles for the loops to increments, 0 for particles with known velocities.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_velocities(const Unknowns &values)
@@ -312,7 +312,7 @@ void ViscousStage::set_velocities(const Unknowns &values)
 }
 
 /* ----------------------------------------------------------------------
-   Find cdot and the bulk term for the velocities in the rows of the loops.
+   Find cdot and the bulk term of owned and ghost particles from the velocities in engine.particle[].
 ------------------------------------------------------------------------- */
 
 void ViscousStage::set_bulk_term()
@@ -328,7 +328,7 @@ void ViscousStage::set_bulk_term()
 }
 
 /* ----------------------------------------------------------------------
-   Note the values of boundary particles at increments of 0 in the fluid; friction() subtracts these values.
+   Store the values of boundary particles if all increments of the fluid are 0; friction() subtracts these values.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::find_rest()
@@ -347,7 +347,7 @@ void ViscousStage::find_rest()
 }
 
 /* ----------------------------------------------------------------------
-   Set out = Gamma in.
+   Set out = Gamma in: minus the linear friction forces and torques at the velocity increments in.
 ------------------------------------------------------------------------- */
 
 void ViscousStage::friction(const Unknowns &in, Unknowns &out)
@@ -409,8 +409,8 @@ void StiffStage::sum(double *values, int n) const
 
 /* ----------------------------------------------------------------------
    Return the square of the scale of the residual.  The scale includes the velocity that moves particles by the rounding
-   error of positions: a smaller residual needs no iteration.  Bodies do not count, since they may be heavy: the tolerance
-   holds for the velocities of the fluid.
+   error of positions: a smaller residual needs no iteration.  Bodies, which may be heavy, do not count: the tolerance holds
+   for the velocities of the fluid.
 ------------------------------------------------------------------------- */
 
 double ViscousStage::scale_sq() const
@@ -469,7 +469,7 @@ std::string StiffStage::moment() const
 }
 
 /* ----------------------------------------------------------------------
-   Stop if values are not finite; finite is the same on all processors.
+   Stop if values are not finite; all processors pass the same argument.
 ------------------------------------------------------------------------- */
 
 void StiffStage::check_finite(bool finite) const
@@ -496,8 +496,8 @@ void StiffStage::step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   Find y_b at the start of a run, where y belongs to the time of the positions.  Extrapolate from y_b of two intervals: then
-   y_b is y to second order.  With these intervals, the half kick removes all stiff motion; the trapezoidal step needs twice
+   Find y_b at the start of a run, when y- belongs to the time of the positions.  Extrapolate from y_b of two intervals: then
+   y_b is y- to second order.  With these intervals, the half kick removes all stiff motion; the trapezoidal step needs twice
    the interval of the other schemes.
 ------------------------------------------------------------------------- */
 
@@ -525,8 +525,8 @@ void StiffStage::implicit_step(double part)
 }
 
 /* ----------------------------------------------------------------------
-   Solve M (Y1 - y-) = h F(Y1), M (Y2 - y-) = (dt - h) F(Y1) + h F(Y2), h = gamma dt.  The residual of the first solution is
-   h F(Y1) - M (Y1 - y-), which gives F(Y1) without another application of Gamma.
+   Solve M (Y1 - y-) = h F(Y1), M (Y2 - y-) = (dt - h) F(Y1) + h F(Y2), h = gamma dt.  The residual of the first solution,
+   h F(Y1) - M (Y1 - y-), gives F(Y1) without another application of Gamma.
 ------------------------------------------------------------------------- */
 
 void StiffStage::sdirk2_step(double interval)
@@ -543,8 +543,8 @@ void StiffStage::sdirk2_step(double interval)
 }
 
 /* ----------------------------------------------------------------------
-   Return a lower estimate of the rate of the fastest mode, by power iteration from a disordered vector.  The rate may be
-   larger than on lattices where particles are disordered, and near free surfaces, where volumes are large.
+   Return a lower estimate of the rate of the fastest mode, by power iteration from a disordered vector.  The rate of
+   disordered particles, and of particles near free surfaces, where volumes are large, may be larger than on lattices.
 ------------------------------------------------------------------------- */
 
 double StiffStage::estimated_rate()
@@ -669,7 +669,7 @@ double StiffStage::memory_usage() const
 
 /* ----------------------------------------------------------------------
    Find T_b, and change esph and desph_before accordingly.  At the start of a run, desph_before is the energy that the last
-   step added after its forces; later it is the rate for the advance of the energy from the middle of the step to its end.
+   step added after the forces; later, desph_before is the rate that advances the energy from the middle to the end of a step.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::run(int prescribed_in)
@@ -697,9 +697,9 @@ void TemperatureStage::run(int prescribed_in)
 
 /* ----------------------------------------------------------------------
    Find the unknown particles, their heat capacities, their temperatures before the step, and the heat of pressure.  The
-   temperature follows from the energy and the present density.  Elastic work is not heat: subtract its part since the middle
-   of the step.  The scheme euler has the temperature at the end of the interval, but the pressure needs the temperature in
-   the middle: count half of the work of the thermal pressure, so that sound is not damped.
+   temperature follows from the energy and the present density.  Elastic work is not heat: subtract the elastic work since the
+   middle of the step.  The scheme euler finds the temperature at the end of the interval, but the pressure needs the
+   temperature in the middle: count half of the work of the thermal pressure, so that sound is not damped.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::find_unknowns()
@@ -840,7 +840,7 @@ double TemperatureStage::scale_sq() const
 }
 
 /* ----------------------------------------------------------------------
-   Find T_b at the start of a run; with euler, by a step to the middle of the first interval: it makes no new extremum.
+   Find T_b at the start of a run; with euler by a step to the middle of the first interval, which makes no new extremum.
 ------------------------------------------------------------------------- */
 
 void TemperatureStage::start()

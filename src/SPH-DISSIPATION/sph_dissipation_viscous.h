@@ -43,7 +43,7 @@ namespace SPHDissipation {
 
     // Return true if the force is the mean of a decay over the whole time step.  Such a force overshoots in a longer step,
     // and adds kinetic energy in a step of more than twice the length.  The force of the trapezoidal step belongs to one
-    // moment: the next step removes the excess.
+    // time: there, the next step removes the overshoot.
 
     bool force_is_a_mean() const { return mode != Viscous::EXPLICIT && !trapezoidal(); }
 
@@ -56,8 +56,8 @@ namespace SPHDissipation {
     bool operator!=(const ViscousSettings &b) const { return !(*this == b); }
 
     // Return the time for the first guess of the velocity in the forces, in half steps after the middle of the step.  For a
-    // smooth velocity, the best time is the one whose velocity the friction of the scheme has.  The stages of RKL2 begin in
-    // the middle; with noise, the velocity is not smooth.
+    // smooth velocity, the friction of the scheme is the friction at the velocity of this time.  The stages of RKL2 begin in
+    // the middle.  With noise, the velocity is not smooth.
 
     double extrapolation(bool noise) const
     {
@@ -76,25 +76,25 @@ namespace SPHDissipation {
   //   trapezoidal:  y_b = (y- + y+)/2
   //   euler:        y_b = y+
   //   sdirk2:       y_b = (1 - gamma) Y1 + gamma Y2 of its two stages
-  // In the first half step of a run, y- belongs to the time of the positions.  There y_b is y- to second order in the time
-  // step, without the fast modes that would be unstable, see start().
+  // In the first half step of a run, y- belongs to the time of the positions.  Then y_b is y- to second order in the time
+  // step, without the fast modes, which would be unstable, see start().
 
   class StiffStage : public Stage {
    public:
-    // where = text after the number of the step, in messages
+    // where = text after the number of the time step, in messages
     StiffStage(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &where) :
         Stage(lmp, engine, exchange), where(where)
     {
     }
 
-    // Take the settings, the same for all integrators of the fluid, and bits of their groups; style = of the fluid, for
-    // messages
+    // Take the settings, the same for all integrators of the fluid, and the bits of the integrators' groups; style = style of
+    // the fluid, for messages
 
     void configure(const ViscousSettings &, int groups, const std::string &style);
     bool active() const { return settings.mode != Viscous::EXPLICIT; }
     const ViscousSettings &choice() const { return settings; }
 
-    // Set the rate of the fastest mode on lattices; forget the rates, since coefficients have changed
+    // set_rate(): set the rate of the fastest mode on lattices.  forget_rates(): coefficients, and so rates, have changed
 
     void set_rate(double rate_in) { known_rate = rate_in; }
     void forget_rates() { outdated = true; }
@@ -102,7 +102,7 @@ namespace SPHDissipation {
 
     void begin_run();    // before the first forces
 
-    // Set forces, torques and heat of LAMMPS aside, and set forces and torques to zero; bring them back
+    // set_aside(): store LAMMPS's forces, torques and heat; set forces and torques to zero.  restore(): set all three back
     void set_aside();
     void restore();
 
@@ -126,10 +126,10 @@ namespace SPHDissipation {
     std::string style;
     int groups = 0;
     bool symmetric = true;       // Gamma is symmetric
-    int prescribed = 0;          // bits of the groups of particles that are not unknown
+    int prescribed = 0;          // bits of the groups whose particles have known values
     int width = 1;               // unknowns per particle
-    std::vector<int> unknown;    // owned particles
-    int rows_of_bodies = 0;      // unknowns behind those of the particles
+    std::vector<int> unknown;    // owned particles with unknown values
+    int rows_of_bodies = 0;      // unknowns of bodies, behind the unknowns of particles
     Unknowns before;             // y-
     Unknowns guess, force;       // first y_b and its F(y_b); the solution is y_b = guess + x
 
@@ -146,7 +146,7 @@ namespace SPHDissipation {
     void solve_step();
 
     virtual void friction(const Unknowns &in, Unknowns &out) = 0;    // out = Gamma in
-    // Return the values that drive the flows at these increments over y-, if they are others: rkl2
+    // Return the values that drive the flows at these increments over y-, for rkl2: with melt the temperatures
     virtual const Unknowns &driving(const Unknowns &increments) { return increments; }
     virtual void start();
 
@@ -156,9 +156,9 @@ namespace SPHDissipation {
    private:
     const std::string where;
     double known_rate = 0.0,
-           rate = 0.0;       // of the fastest mode: on lattices; estimated for these particles
+           rate = 0.0;       // of the fastest mode: on lattices; estimated for present particles
     bool outdated = true;    // both rates are outdated
-    bool warned = false;     // of too few iterations, in this run
+    bool warned = false;     // true: this run has warned of too few iterations
     double h = 0.0;          // time in the matrix M + h Gamma
     std::vector<double> forces_before, torques_before, heat_before;
 
@@ -171,11 +171,11 @@ namespace SPHDissipation {
   };
 
   // Large viscosities.  The unknowns are the velocities and spins of the fluid particles that the integrators move, and the
-  // velocities of bodies that the fluid moves.  This stage sets v_b as the velocity in the forces (vest, omegaest), on owned
+  // velocities of bodies that the fluid moves.  This stage sets the velocity in the forces (vest, omegaest) to v_b, on owned
   // and ghost atoms.  One application of Gamma is pass 1 for cdot and pass 2 without the equation of state.
   //
-  // F contains the forces of other styles.  LAMMPS computes these after the pair style: so F has their values of the step
-  // before, and 0 in the first half step of a run.
+  // F contains the forces of other styles.  LAMMPS computes these forces after the pair style: so F contains the forces of
+  // the step before, and 0 in the first half step of a run.
 
   class ViscousStage : public StiffStage {
    public:
@@ -186,16 +186,16 @@ namespace SPHDissipation {
     {
     }
 
-    // Called by the integrator at the beginning of a step for a particle that it has moved: set vest, or omegaest, to v +
-    // dt/m times the forces of other styles.  This value migrates with the particle, until begin() replaces it by the guess
-    // of v_b.  keep: 0 if v is added later, else 1
+    // The integrator calls carry_force() and carry_torque() for a particle that has moved, at the beginning of a step: set
+    // vest, or omegaest, to keep v + dt/m times the forces of other styles; keep = 0 if the integrator adds v later, else 1.  The
+    // value migrates with the particle, until begin() sets vest to the guess of v_b.
 
-    void begin_carrying();    // before the next two, which threads may call for different particles
+    void begin_carrying();    // makes room; then threads may call the next two functions
     void carry_force(int i, double keep);
     void carry_torque(int i, const double *inertia, double **omegaest);
 
-    // One step: begin() sets the forces aside and sets vest to the guess of v_b; the passes run; run() finds v_b and brings
-    // the forces back; the passes run with v_b.  Velocities of particles with a bit of prescribed are known; omegaest and
+    // One step: begin() calls set_aside() and sets vest to the guess of v_b; the passes run; run() finds v_b and calls
+    // restore(); the passes run with v_b.  Particles in groups with a bit of prescribed have known velocities; omegaest and
     // inertia: nullptr without spins
 
     void begin(int prescribed, double **omegaest, const double *inertia);
@@ -221,13 +221,13 @@ namespace SPHDissipation {
     const double *bound = nullptr;
     double **omegaest = nullptr;
     Unknowns others;        // forces of other styles
-    double mean[3] = {};    // velocity
+    double mean[3] = {};    // mean velocity
 
-    // increments of the integrator's guess over v- and spin-, in the order of the particles at carry_force()
+    // guess of the integrator less v-, and of spin less spin-, in the order of the particles at carry_force()
 
     std::vector<double> ahead, ahead_spin;
 
-    // values of a boundary particle with increments of 0 in the fluid
+    // Values of a boundary particle if all increments of the fluid are 0
 
     struct Rest {
       int i;
@@ -247,10 +247,10 @@ namespace SPHDissipation {
 
   // Stiff conduction of heat, C dT/dt = R - Lambda T, with the heat capacities C and the flows of heat of the pairs.  The
   // unknowns are the temperatures of the particles that conduct and whose energy the integrators advance.  During the
-  // forces, this stage sets the internal energy of owned atoms, so that conduction and pressure have T_b.  It also sets
+  // forces, this stage sets the internal energy of owned atoms, so that conduction and pressure have T_b.  The stage also sets
   // desph_before, so that the energy at the end of the step contains the flows at T_b.  R is all other heat, from the last
-  // pass 2 with the velocities of the step.  With melt, the unknown of rkl2 is the heat over cv, and the temperatures, a
-  // function of it, drive the flows.
+  // pass 2 with the velocities of the step.  With melt, the unknown of rkl2 is the heat over cv; the temperatures, which
+  // follow from this heat, drive the flows.
 
   class TemperatureStage : public StiffStage {
    public:
@@ -276,17 +276,17 @@ namespace SPHDissipation {
     BoundaryStage &boundary;
     std::vector<double> flow;           // heat per time that owned and ghost atoms get
     std::vector<double> temperature;    // of owned atoms, from their energies before run()
-    Unknowns driven;                    // of driving()
-    bool melts = false;                 // in this step, of any type
+    Unknowns driven;                    // result of driving()
+    bool melts = false;                 // any type melts, in this step
     double mean = 0.0;                  // mean temperature before the step
 
     void find_unknowns();
     void gather();
-    void set_temperatures();     // of owned and ghost atoms to those of the guess
+    void set_temperatures();     // of owned and ghost atoms, to the guess or the known value
     void send_temperatures();    // of owned atoms to ghosts
     void friction(const Unknowns &in, Unknowns &out) override;
     const Unknowns &driving(const Unknowns &increments) override;
-    // Return the heat of an owned particle over m cv at a temperature; return its inverse
+    // scaled_heat(): return the heat of an owned particle over m cv at T; unscaled(): return T at this scaled heat
     double scaled_heat(int i, double T) const;
     double unscaled(int i, double heat) const;
     void start() override;

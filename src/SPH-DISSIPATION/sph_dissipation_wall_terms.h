@@ -36,12 +36,12 @@ namespace SPHDissipation {
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
 
-  // CLOSEST_PAIR: least distance d in surface_factor(), in support radii.  So the rate of a particle next to the surface, in
-  // units of nu/h^2, has the same bound with any spacing.  FIRST_LAYER: distance for unknown surfaces, in spacings.
+  // CLOSEST_PAIR: least distance d in surface_factor(), in support radii.  So the viscous rate of a particle next to the
+  // surface is at most the same multiple of nu/h^2 with any spacing.  FIRST_LAYER: d if the surface is unknown, in spacings.
 
   constexpr double CLOSEST_PAIR = 0.05, FIRST_LAYER = 0.5;
 
-  // q = level + slope d + bend d^2 next to the surface, d < 0 behind it
+  // Fit of a field next to a surface, q = level + slope d + bend d^2.  behind(): return q at d = -depth, behind the surface
 
   struct Extension {
     double level, slope, bend;
@@ -51,16 +51,15 @@ namespace SPHDissipation {
     }
   };
 
-  // Means of the powers of the distance
+  // Means of d^3 to d^6 over the fluid around a boundary particle; fits with these and f_d3 = <q d^3>, f_d4 = <q d^4>
 
   struct DistanceMeans {
     double d3, d4, d5, d6;
 
     // Fit q with zero at the surface: minimize <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2.  The
-    // second term makes the field straight deep in a wall, where only the first layer contributes.  The share alike raises
-    // <d^6>, and makes the field straight if all distances are equal.  The fit of a field without a bend is exact.  The
-    // share is smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next to the
-    // surface.
+    // second term makes the field straight deep in a wall, where only the first layer contributes.  The factor 1 + alike of
+    // <d^6> makes the field straight if all distances are equal.  The fit of a field without a bend is exact.  alike is
+    // smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next to the surface.
 
     static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
 
@@ -72,7 +71,7 @@ namespace SPHDissipation {
       return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
     }
 
-    // Share by which the next two fits raise <d^6> or <d^5>: larger, so that results stay in the range of the fluid
+    // The next two fits raise <d^6> or <d^5> by this larger share: so their values stay in the range of the fluid's values
 
     static constexpr double DAMPING = 0.1;
 
@@ -85,7 +84,7 @@ namespace SPHDissipation {
       return {norm * (f_d3 * sixth - f_d4 * d5), 0.0, norm * (f_d4 * d3 - f_d3 * d4)};
     }
 
-    // Return the derivative of the straight line through q
+    // Return the slope of a straight line fitted to q
 
     SPH_FUNCTION double straight_slope(double f_d3, double f_d4) const
     {
@@ -104,15 +103,15 @@ namespace SPHDissipation {
     double omega[3];       // angular velocity of the rigid body of w
   };
 
-  // Type of the sums below: a number; in the loops a vector (wrapped, since compilers warn of a vector as template argument)
+  // Type of the sums below: a number, or a vector in the loops; in a struct, since compilers warn of vectors as arguments
 
   struct OneNumber {
     typedef double type;
   };
 
   // Sums over the fluid particles f around a boundary particle w, of V_f W(r_wf) times the quantity; S. Adami et al.,
-  // J. Comput. Phys. 231, 7057 (2012).  Relative velocities are relative to the rigid body of w at f; d: distance of f from
-  // the surface
+  // J. Comput. Phys. 231, 7057 (2012).  Relative velocity and spin: less the rigid motion of the body of w at the place of f.
+  // d: distance of f from the surface
 
   template <class Number> struct BoundarySums {
     typedef typename Number::type Real;
@@ -129,7 +128,7 @@ namespace SPHDissipation {
     Real wd3[3];        // relative spin times d^3 (micropolar)
     Real wd4[3];        // relative spin times d^4 (micropolar)
 
-    static constexpr int OF_SPIN = 6;    // the last numbers
+    static constexpr int OF_SPIN = 6;    // numbers in wd3 and wd4, the last members
   };
 
   struct BoundarySum : BoundarySums<OneNumber> {};
@@ -148,7 +147,7 @@ namespace SPHDissipation {
 
   struct BoundaryHeatSum : BoundaryHeatSums<OneNumber> {};
 
-  // Velocity of a wall: velocity of a point on the axis, and rotation about the axis.  r = vector from that point
+  // Rigid motion of a wall: velocity of a point on the axis, and rotation about the axis.  r = vector from the point
 
   struct WallVelocity {
     double point[3], axis[3];
@@ -179,7 +178,7 @@ namespace SPHDissipation {
     }
   };
 
-  // Displacement of a wall in a step: r -> rotation r + shift
+  // Displacement of a wall in a step, r -> rotation r + shift, r from the point on the axis; move(): displace x
 
   struct WallStep {
     double rotation[3][3], shift[3];
@@ -205,14 +204,14 @@ namespace SPHDissipation {
   struct WallCondition {
     bool slip;
     WallSpin spin;
-    double alpha;    // of spin rate: spin at the surface over half the vorticity
+    double alpha;    // with WallSpin::RATE: spin at the surface over half the vorticity
     double gravity[3];
   };
 
   // A fluid particle is inside a wall if boundary particles fill more than this part of its near support.  The near support
   // is the smallest support of a fluid, a few particle spacings wide.  Boundary particles fill half of it at a plane
-  // surface, 7/8 in the corner of a box, and more only inside.  A larger support is as full in a pore of the width
-  // of a particle.
+  // surface, 7/8 in the corner of a box, and more only inside.  In a pore as wide as a particle, they fill as much of
+  // a larger support.
 
   constexpr double INSIDE_WALL = 0.9;
 
@@ -239,7 +238,7 @@ namespace SPHDissipation {
   constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // that of ContactKernel
   constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces, over m c0^2
 
-  // Return the contact kernel of a boundary particle with the volume vol; norm = of ContactKernel
+  // Return the contact kernel of a boundary particle with the volume vol; norm = norm of ContactKernel
 
   SPH_FUNCTION NearKernel contact_kernel(int dim, double support, double norm, double vol)
   {
@@ -248,7 +247,7 @@ namespace SPHDissipation {
     return {vol * norm / whole_power(radius, dim), 1.0 / radius};
   }
 
-  SPH_FUNCTION double beyond_surface(double occupied)
+  SPH_FUNCTION double beyond_surface(double occupied)    // s, from the filled part of the support
   {
     return (occupied > 0.5) ? occupied - 0.5 : 0.0;
   }
@@ -263,7 +262,7 @@ namespace SPHDissipation {
     return 0.5 * stiffness * s * s;
   }
 
-  // Return the force on a fluid particle at this distance from a boundary particle, over this distance
+  // Return the repulsive force between a fluid particle and a boundary particle at this distance, divided by the distance
 
   SPH_FUNCTION double repulsion_of(double stiffness, double s, const NearKernel &wall,
                                    double distance)
@@ -273,7 +272,7 @@ namespace SPHDissipation {
     return stiffness * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
   }
 
-  // Return the pressure of a wall particle with this acceleration, from the fluid around; sum.weight > 0
+  // Return the pressure of a wall particle with this acceleration, extrapolated from the fluid around; sum.weight > 0
 
   SPH_FUNCTION double wall_pressure(const BoundarySum &sum, const double *gravity,
                                     const double *acceleration)
@@ -284,7 +283,7 @@ namespace SPHDissipation {
     return pressure;
   }
 
-  // Return the pressure of a wall particle with this acceleration, from the background pressure pb at the surface alone
+  // Return the pressure of a wall particle with this acceleration, from the background pressure pb, without the fluid
 
   SPH_FUNCTION double surface_pressure(const Surface &surface, double rho0, double pb,
                                        const double *gravity, const double *acceleration)
@@ -295,7 +294,7 @@ namespace SPHDissipation {
     return pressure;
   }
 
-  // Factors that turn sums with powers of the distance into means (sum.weight > 0); the means of the powers
+  // Factors that turn sums with d, d^3, d^4 into means (sum.weight > 0); means of d^3 to d^6.  <d> is at least CLOSEST_MEAN
 
   struct DistanceNorms {
     double d, d3, d4;
@@ -316,8 +315,8 @@ namespace SPHDissipation {
              norm_d4 * stretch * stretch * sum.d6}};
   }
 
-  // Continue velocity and spin of the fluid behind the surface by the boundary condition: add them to u and spin of a wall
-  // particle, which begin with velocity and spin of the wall (spin: nullptr without spins); sum.weight > 0
+  // Continue velocity and spin of the fluid behind the surface by the boundary condition: add the continued values to u and
+  // spin of a wall particle, which hold velocity and spin of the wall (spin: nullptr without spins); sum.weight > 0
 
   SPH_FUNCTION void extend_motion(const WallCondition &condition, const Surface &surface,
                                   const BoundarySum &sum, double *u, double *spin)
@@ -329,8 +328,8 @@ namespace SPHDissipation {
     const double *const normal = surface.normal;
     const double depth = surface.depth;
 
-    // The velocity across the surface is zero at the surface; with no-slip, its slope is zero as well: the image of the mean
-    // is enough, and needs no smaller time step
+    // The normal velocity is zero at the surface.  With no-slip, the slope of the normal velocity is zero, too: the mirrored
+    // mean velocity is enough, and needs no smaller time step
 
     const double mirrored = (depth < mean_d) ? depth / mean_d : 1.0;
     const double across = inner_product(sum.u, normal) * norm;
@@ -364,10 +363,10 @@ namespace SPHDissipation {
   }
 
   // Return the values of a wall particle of volume vol in the conduction of heat, sum.weight > 0.  value = heat per area and
-  // time, or temperature at the surface.  With a temperature, the field of the fluid continues behind the surface, as the
-  // velocity along the surface does, and the conductivity is the mean of the fluid around.  An adiabatic particle has the
-  // temperature at which it gets no heat.  Pairs across the surface conduct heat along it for both sides: so an adiabatic
-  // particle has half of its volume.
+  // time, or temperature at the surface.  With a temperature, the temperature of the fluid continues behind the surface, as
+  // the tangential velocity does; the conductivity is the mean of the fluid around.  An adiabatic particle has the
+  // temperature at which it gets no heat.  A pair across the surface also conducts heat along the surface, for fluid and
+  // wall: so an adiabatic particle has half of its volume.
 
   SPH_FUNCTION FlowRow wall_conductor(WallHeat heat, double value, double vol, double conductivity,
                                       const Surface &surface, const BoundaryHeatSum &sum)
@@ -406,8 +405,8 @@ namespace SPHDissipation {
     return 2.0 * flux * vol_f * surface.flux_volume * slope * seen;
   }
 
-  // Return the factor by which the sum of surface_heat() over a cubic lattice is too small.  One sum corrects the volumes
-  // V = 1/c, which are too small; the other sum corrects the difference between the sum of F z^2 and its integral
+  // Return the factor by which the sum of surface_heat() over a cubic lattice is too small.  sums.zeroth corrects the volumes
+  // V = 1/c, which are too small; sums.second corrects the difference between the sum of F z^2 and the integral
 
   inline double flux_factor(const LatticeSums &sums)
   {
@@ -415,8 +414,8 @@ namespace SPHDissipation {
   }
 
   // Set the values of wall particle i, with this acceleration, for pass 2, extrapolated from the fluid; sum.weight > 0.  The
-  // ratio of density and reference density is that of the fluid: so the particle has the volume of a fluid particle in its
-  // place, with any fluids around.  A wall does not pull on a fluid without tension.
+  // particle gets the mean density over reference density of the fluid around: so, with any fluids, the volume of the
+  // particle is the volume of a fluid particle at this place.  A wall does not pull on a fluid without tension.
 
   template <class Rows>    // ParticleRows
   SPH_FUNCTION void extend_fluid(const Rows &rows, int i, const WallCondition &condition,
