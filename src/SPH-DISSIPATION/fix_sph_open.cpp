@@ -46,8 +46,7 @@ using namespace LAMMPS_NS;
 using namespace FixConst;
 using namespace SPHDissipation;
 
-static constexpr double NODES =
-    3.0;    // nodes of the plane per radius in which the fluid is measured
+static constexpr double NODES = 3.0;          // nodes of the plane per radius of the measured fluid
 static constexpr double AVERAGING = 100.0;    // default time, support radii over sound speed
 
 // Numbers in restart files: -format, size, balance, rows, clock, point and normal of the plane; then the waves.  Files
@@ -200,8 +199,8 @@ void FixSPHOpen::init()
 }
 
 /* ----------------------------------------------------------------------
-   Set the times of averages and of the memory of waves, from the mean and, with new neighbor lists, the least speed of sound
-   near the plane, which heat and fix adapt change.  crossings = sums of measure_sound() over all processors.
+   Set the averaging time from the mean, and the memory of waves from the least speed of sound near the plane, the latter with
+   new neighbor lists: heat and fix adapt change the speed.  crossings = sums of measure_sound() over all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::set_times(const double *crossings)
@@ -235,8 +234,8 @@ void FixSPHOpen::measure_sound(std::vector<double> &mine)
 }
 
 /* ----------------------------------------------------------------------
-   Return whether a particle at x may have pairs of zone and fluid: near the plane, or, in a zone with a region, which may
-   have fluid at its sides, anywhere.
+   Return whether a particle at x may have pairs of zone and fluid: near the plane, or anywhere in a zone with a region, which
+   may have fluid at the sides.
 ------------------------------------------------------------------------- */
 
 bool FixSPHOpen::zone_near(const double *x, double reach) const
@@ -246,8 +245,8 @@ bool FixSPHOpen::zone_near(const double *x, double reach) const
 }
 
 /* ----------------------------------------------------------------------
-   Set the velocities of the zone, unless the run continues another one, or a restart file.  A command
-   that moves particles between processors before the first run leaves the zone new.
+   Set the velocities of the zone, unless the run continues another run or a restart file.  A command that moves particles
+   between processors before the first run leaves the zone new.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup_pre_exchange()
@@ -273,7 +272,7 @@ void FixSPHOpen::setup_pre_exchange()
 }
 
 /* ----------------------------------------------------------------------
-   Set the internal energies of the zone after the forces, which may be computed several times in a step.
+   Set the internal energies of the zone after the last computation of the forces: a step may have several.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::setup(int /*vflag*/)
@@ -288,8 +287,8 @@ void FixSPHOpen::keep_states()
 }
 
 /* ----------------------------------------------------------------------
-   Find the particles of the zone and the fluid near the zone before each neighbor list, and so before all forces of a setup:
-   number and order of the particles do not change from one list to the next, unless has_lost_members().
+   Find the particles of the zone and the fluid near the zone before each neighbor list, and so before all forces of a setup.
+   Number and order of the particles do not change from one list to the next, unless has_lost_members().
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::find_members()
@@ -314,8 +313,8 @@ bool FixSPHOpen::has_lost_members() const
 }
 
 /* ----------------------------------------------------------------------
-   Count the forces of the start of the step for its first half, and move the particles of the zone with the velocity of this
-   time.
+   Add the impact of the forces at the start of the step, over half a step, to the balance.  Move the particles of the zone
+   with their velocity at this time.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::initial_integrate(int /*vflag*/)
@@ -330,8 +329,8 @@ void FixSPHOpen::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Correct the move to the mean velocity of the step, and let particles enter and leave.  Along the plane, particles move
-   with the given velocity, if there is one: with their own velocity, particles that leave would gather, or enter walls.
+   Correct the move to the mean velocity of the step, and let particles enter and leave.  Along the plane, particles move with
+   the given velocity, if any: with their own velocity, particles that leave would gather, or enter walls.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::post_integrate()
@@ -370,7 +369,7 @@ void FixSPHOpen::post_integrate()
 }
 
 /* ----------------------------------------------------------------------
-   Turn a particle of the zone into one of the fluid; the integrator of the fluid does the second half of the step.
+   Turn a particle of the zone into fluid; the integrator of the fluid does the second half of the step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::enter(int i, const double *v)
@@ -383,8 +382,8 @@ void FixSPHOpen::enter(int i, const double *v)
 }
 
 /* ----------------------------------------------------------------------
-   Change the density of a particle, at constant entropy, to the one that it will have in the fluid,
-   a sum over its neighbors.
+   Change the density of a particle, at constant entropy, to its density in the fluid: the sum over neighbors at the end of
+   the step.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::compress(int i)
@@ -400,8 +399,8 @@ void FixSPHOpen::compress(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Turn a particle of the fluid into one of the zone, without strain.  The integrator has extrapolated its internal energy to
-   the end of the step: subtract the second half; the density then belongs to the same time.
+   Turn a particle of the fluid into a particle of the zone, without strain.  The integrator has extrapolated the internal
+   energy to the end of the step: subtract the second half; so energy and density belong to the same time.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::leave(int i)
@@ -493,8 +492,8 @@ void FixSPHOpen::set_states(OpenStage &stage, const double *all)
 }
 
 /* ----------------------------------------------------------------------
-   Measure the fluid near the plane, and count its particles that leave faster than sound.  Both need the variables at these
-   particles: so these particles are in the group of the zone during the evaluation.
+   Measure the fluid near the plane, and count particles of the fluid that leave faster than sound.  Both need the values of
+   variables at these particles: so these particles are in the group of the zone during the evaluation.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
@@ -526,7 +525,7 @@ void FixSPHOpen::measure(const OpenStage &stage, std::vector<double> &mine)
 
 /* ----------------------------------------------------------------------
    With each new neighbor list, check for a gap, and for fluid that leaves faster than sound; warn once of each.  No wave
-   comes back from such fluid: nothing can be prescribed.  nsupersonic = such particles of all processors.
+   comes back from such fluid: no value can be prescribed.  nsupersonic = number of such particles of all processors.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn(double nsupersonic)
@@ -569,8 +568,8 @@ void FixSPHOpen::set_state(OpenStage &stage, int i)
 }
 
 /* ----------------------------------------------------------------------
-   Return a value of the balance, see OpenBalance; after these the number of particles of the zone, mean
-   pressure and mean velocity of the fluid at the plane.
+   Return a value of the balance, see OpenBalance; behind the balance: number of particles of the zone, mean pressure and mean
+   velocity of the fluid at the plane.
 ------------------------------------------------------------------------- */
 
 double FixSPHOpen::compute_vector(int n)
@@ -626,7 +625,7 @@ void FixSPHOpen::restart(char *buf)
 }
 
 /* ----------------------------------------------------------------------
-   Warn that the restart file has waves and rows of another plane, which are not used.
+   Warn that the restart file has waves and rows of another plane, and that the run does not use these.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::warn_of_other_plane()

@@ -43,7 +43,7 @@ namespace SPHDissipation {
 }    // namespace SPHDissipation
 
 // Open boundary of the fluids sph/bulk and sph/micropolar, a buffer zone: moves the particles of the zone, sets their state
-// to the prescribed state or to the state of the fluid, turns them into fluid and back, and sums up what they carry.
+// to the prescribed state or to the state of the fluid, turns them into fluid and back, and sums their balance.
 // M. Lastiwka, M. Basa, N. J. Quinlan, Int. J. Numer. Meth. Fluids 61, 709 (2009).
 
 class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
@@ -82,13 +82,13 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   SPHDissipation::Fluid *fluid = nullptr;
   class FixSPHBulk *integrator = nullptr;    // moves the fluid
   SPHDissipation::Fields *fields = nullptr;
-  std::string fluid_name;    // group of the fluid
+  std::string fluid_name;    // name of the group of the fluid
   int fluidbit = 0;
-  double radius = 0.0;    // in which the fluid is measured around nodes of the plane
-  double area = 0.0;      // cross section of a row; 0: rows have a spacing
+  double radius = 0.0;    // of the fluid measured around a node of the plane
+  double area = 0.0;      // cross section of a row; 0: the zone has a spacing
   double my_longest = 0.0,
-         longest = 0.0;        // time in which sound crosses a support radius near the plane
-  std::vector<int> members;    // owned particles of the zone, and fluid that may come to it
+         longest = 0.0;        // largest time of sound per support radius near the plane
+  std::vector<int> members;    // owned particles of the zone, and fluid that may reach the zone
   bool is_new = false;         // no forces have been computed with this zone
   bool supersonic = false, gap = false;    // true: a warning was given
   bool set_up = false;                     // setup has run since the fix was defined
@@ -96,8 +96,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::vector<double> totals;
   std::vector<double> waves_before;    // from a restart file, until init()
 
-  // Owned particles of a zone with heat, in ascending order, with their states in the last forces; densities by sums over
-  // the neighbors; both valid until particles change sides
+  // Owned particles of a zone with heat, in ascending order, with their states in the last forces; sums: the densities of
+  // these particles by sums over neighbors.  Both are valid until particles change sides
   std::vector<std::pair<int, SPHDissipation::OpenState>> states;
   std::vector<double> sums;
 

@@ -218,7 +218,7 @@ void FixSPHOpen::check_lists()
 }
 
 /* ----------------------------------------------------------------------
-   Check that the energy, or temperature, that is prescribed for the zone is enough for its heat.
+   Check that the prescribed energy, or temperature, of the zone is enough for heat > 0.
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::check_heat()
@@ -327,7 +327,7 @@ void FixSPHOpen::warn_of_masses()
   }
   MPI_Allreduce(sum.data(), zone.data(), 2 * n, MPI_DOUBLE, MPI_SUM, world);
 
-  // compare with the particle of the fluid that is most like those of the zone
+  // compare with the particle of the fluid that is most like the particles of the zone
 
   for (int i = 0; i < atom->nlocal; i++) {
     const int type = atom->type[i];
@@ -384,7 +384,7 @@ bool FixSPHOpen::warn_of_gap()
 {
   using Bits = long long;
   constexpr int PARTS = 58;
-  constexpr double GAP = 2.0;    // sizes of a particle; layers of lattices are one apart
+  constexpr double GAP = 2.0;    // in sizes of a particle, the distance of lattice layers
   if (fluid->model->choice.eos == Eos::IDEAL) return false;
   const double spacing = lattice->largest_spacing();
   const int nodes = plane->nnodes(), sides = 2 * (domain->dimension - 1);

@@ -349,7 +349,7 @@ void FixSPHWall::setup(int vflag)
 }
 
 /* ----------------------------------------------------------------------
-   Move the wall by the mean velocity of the step, and set the velocities of its particles; for bodies, begin the step of the
+   Move the wall by the mean velocity of the step, and set the velocities of wall particles; for bodies, begin the step of the
    internal energies.
 ------------------------------------------------------------------------- */
 
@@ -380,7 +380,7 @@ void FixSPHWall::initial_integrate(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Take over the motion of bodies, which another fix has moved: of particles that move one by one from their last forces.
+   Take the motion of bodies that another fix has moved; for particles that move one by one, from their last forces.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::post_integrate()
@@ -488,7 +488,7 @@ bool FixSPHWall::turns_surface(bool before) const
 
 void FixSPHWall::move_surface(BoundaryStage &stage, Surface *surface, bool before)
 {
-  if (elastic) return;    // surface of the last neighbor list; the friction needs no omega
+  if (elastic) return;    // the surface stays until the next list; the friction needs no omega
   const WallVelocity now = motion->velocity();
   const bool turns = bodies ? before : turns_surface(before);
   const WallStep step = motion->last_step();
@@ -590,7 +590,7 @@ void FixSPHWall::post_force(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Add force and torque of the bodies that touch the wall, which no single particle of the wall has.
+   Add force and torque of the bodies that touch the wall, which are in no sum of a wall particle.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::add_contact()
@@ -607,7 +607,7 @@ void FixSPHWall::add_contact()
 }
 
 /* ----------------------------------------------------------------------
-   Add the heat of a step, by the mean of the rates at both ends, as in the internal energies of the fluid.
+   Add the heat of a step, from the mean of the rates at both ends, as in the internal energies of the fluid.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::book_heat()
@@ -645,7 +645,7 @@ void FixSPHWall::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   Set the forces on the wall to 0: the minimizer must not move the wall.
+   Set the forces on the wall to 0: a minimizer must not move the wall.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::min_post_force(int vflag)

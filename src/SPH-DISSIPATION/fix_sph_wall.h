@@ -88,16 +88,16 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
  protected:
   const std::unique_ptr<SPHDissipation::WallMotion>
-      motion;    // of the wall; the torque is about the point on its axis
+      motion;    // of the wall; torques are about the point on the axis of the motion
   const std::unique_ptr<SPHDissipation::WallCondition> condition;
   bool move = true;
   std::unique_ptr<SPHDissipation::Bodies> bodies;     // which the fluid moves; nullptr: a wall
   bool elastic = false;                               // bodies whose particles move one by one
-  std::unique_ptr<SPHDissipation::ContactLaw> law;    // of the contact of bodies; nullptr: none
+  std::unique_ptr<SPHDissipation::ContactLaw> law;    // of contacts of bodies; nullptr: no contacts
   bool noise = false;                                 // the fluid has thermal noise
   bool checked = false;    // setup() has run, and has checked the thickness
 
-  double total[6] = {}, total_all[6] = {};    // force and torque, of this rank and of all
+  double total[6] = {}, total_all[6] = {};    // force and torque: of this rank; of all ranks
   bool total_summed = false;
 
   SPHDissipation::WallHeat heat;
@@ -111,10 +111,10 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void book_heat();
 
  private:
-  // given to the fluid by this rank's part of the wall; on rank 0 also the heat of a restart file
+  // Heat that this rank's part of the wall gives to the fluid; on rank 0 also the heat of a restart file
 
-  double heat_rate = 0.0;     // heat per time in the last step
-  double heat_given = 0.0;    // heat since the fix was defined
+  double heat_rate = 0.0;     // per time, in the last step
+  double heat_given = 0.0;    // since the fix was defined
 
   // bodies that the fluid moves: one for each molecule; keyword body is given
 
@@ -134,7 +134,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void add_rest_of_heat();
   void add_contact();
 
-  bool is_wrong(double value) const;    // not admissible for keyword heat
+  bool is_wrong(double value) const;    // true: keyword heat cannot have this value
   void check_heat() const;
   void from_point(int, const SPHDissipation::WallVelocity &, double *) const;
   bool set_velocity();    // returns true if the velocity of an owned particle has changed

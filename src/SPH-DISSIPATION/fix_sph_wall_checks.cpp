@@ -84,7 +84,7 @@ void FixSPHWall::include_walls()
 }
 
 /* ----------------------------------------------------------------------
-   Return the index of two groups in the list of Neighbor, -1 if they are not there.
+   Return the index of two groups in the list of Neighbor, -1 if the list does not have the groups.
 ------------------------------------------------------------------------- */
 
 int FixSPHWall::find_excluded(int first, int second) const
@@ -116,7 +116,7 @@ void FixSPHWall::check_particles() const
 }
 
 /* ----------------------------------------------------------------------
-   Check the keywords beside move rigid and elastic; others = one that bodies do not have.
+   Check the keywords beside move rigid and elastic; others = a given keyword that bodies cannot have, or empty.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::read_bodies(const std::string &others)
@@ -247,8 +247,8 @@ bool FixSPHWall::check_movers() const
 }
 
 /* ----------------------------------------------------------------------
-   Check that the fix that moves a body has at least the mass of the particles.  The solver of large viscosities uses the
-   mass of the particles: with half the mass in the fix, the error of the acting velocity grows from step to step.
+   Check that a body has at least the mass of its particles in the fix that moves the body.  The solver of large viscosities
+   uses the mass of the particles: with half the mass in the fix, the error of the acting velocity grows from step to step.
 ------------------------------------------------------------------------- */
 
 void FixSPHWall::check_masses() const

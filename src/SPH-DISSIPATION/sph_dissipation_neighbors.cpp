@@ -32,7 +32,7 @@ static constexpr double SPARSE = 16.0;    // most cells per particle
 static constexpr int COLUMN = 6;          // cells in y and z of one column
 static constexpr double ROUND_OFF = 1.0e-9;
 static constexpr double FLOAT_ROUND_OFF =
-    1.0e-6;    // error of the square of a distance, in units of the cutoff
+    1.0e-6;    // error of a squared distance, in units of the squared cutoff
 
 /* ---------------------------------------------------------------------- */
 
@@ -63,7 +63,7 @@ bool NeighborSearch::update(NeighList *list)
   if (ncalls < 0) copy_neighbor_info();    // as the styles of LAMMPS, once per setup of a run
   ncalls = neighbor->ncalls;
   lastcall = neighbor->lastcall;
-  if (list->copy) {    // copy of a list that LAMMPS builds for others
+  if (list->copy) {    // copy of a list that LAMMPS builds for other styles
     neighbor->build_one(list);
     return true;
   }
@@ -111,8 +111,8 @@ void NeighborSearch::build(NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   Find the neighbors of the owned particles in some of the cells: first those in the same cell, then those within the
-   support, then those that only the skin adds.  In this order, most vectors of the pair loops are full or have no pair
+   Find the neighbors of the owned particles in some of the cells: first neighbors in the same cell, then within the support,
+   then beyond the support, in the skin.  In this order, most vectors of the pair loops are full or have no pair
    inside the support.
 ------------------------------------------------------------------------- */
 
@@ -181,7 +181,7 @@ void NeighborSearch::search(std::size_t from, std::size_t to, NeighList *list, P
 }
 
 /* ----------------------------------------------------------------------
-   Find the owned particles of the types of the fluid, and the ghosts of these types with which they may have pairs.
+   Find the owned particles of the types of the fluid, and the ghosts of these types that may be in pairs.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_members(const NeighList *list)
@@ -201,9 +201,9 @@ void NeighborSearch::find_members(const NeighList *list)
 }
 
 /* ----------------------------------------------------------------------
-   Choose the size of the cells: half of the reach is long enough for few cells and short enough for few candidates; cells
-   are larger if most of the space is empty.  They divide the domain of the processor as the bins by which LAMMPS sorts the
-   particles, so that those of a cell are close in memory.  LAMMPS's bins have checked that all positions are finite.
+   Choose the size of the cells: half of the cutoff is long enough for few cells and short enough for few candidates; cells
+   are larger if most of the space is empty.  The cells divide the domain of the processor as LAMMPS's bins for sorting do: so
+   the particles of a cell are close in memory.  LAMMPS's bins have checked that all positions are finite.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::choose_cells()
@@ -239,7 +239,7 @@ void NeighborSearch::choose_cells()
 }
 
 /* ----------------------------------------------------------------------
-   Find the rows of cells that may have a neighbor of a particle.
+   Find the rows of cells along x, relative to the cell of a particle, that may have neighbors of the particle.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::find_rows()
@@ -300,8 +300,8 @@ void NeighborSearch::sort(Sorted &sorted, int from, int to)
 }
 
 /* ----------------------------------------------------------------------
-   Order the cells with owned particles for the rows of the list: one square column of cells along x after the other, so that
-   the neighbors of successive rows are in the second-level cache.
+   Order the cells with owned particles for the rows of the list: one square column of cells along x after the other, so the
+   second-level cache keeps the neighbors of successive rows.
 ------------------------------------------------------------------------- */
 
 void NeighborSearch::order_cells()
@@ -350,7 +350,7 @@ void NeighborSearch::find_candidates(const Sorted &sorted, const std::vector<Cel
 }
 
 /* ----------------------------------------------------------------------
-   Keep the particles within the cutoff, in double precision; return their number.
+   Keep the particles within the cutoff, in double precision; return the number of these particles.
 ------------------------------------------------------------------------- */
 
 int NeighborSearch::check(int i, int *found, int n) const

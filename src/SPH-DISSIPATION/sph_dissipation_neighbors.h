@@ -25,25 +25,25 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // Builds the half neighbor list of the fluid with the same pairs as LAMMPS: within the cutoff and the skin, not excluded,
-  // of types that pair_style hybrid leaves to the fluid.  The search sorts the particles into cells of half the reach; it
-  // copies the candidates of a cell into columns, relative to the corner of the cell and in single precision, and tests
-  // whole vectors of them for each particle of the cell.  It tests candidates too close to the bound in double precision.
-  // Of two owned particles, the one in the lower cell has the pair, so that the search looks at half of the cells.  With
+  // of types that pair_style hybrid leaves to the fluid.  The search sorts the particles into cells of half the cutoff of the
+  // list, copies the candidates of a cell into columns, relative to the corner of the cell and in single precision, and tests
+  // whole vectors of candidates for each particle of the cell; candidates too close to the cutoff in double precision.
+  // The owned particle in the lower cell has a pair of two owned particles: so the search looks at half of the cells.  With
   // newton on, an owned particle has its pairs with the ghosts from above; if the communication of LAMMPS is not by bricks,
-  // IDs tell which processor has a pair.
+  // IDs decide which processor has a pair.
 
   class NeighborSearch : public NPair {
    public:
     NeighborSearch(class LAMMPS *lmp, Exchange &messages) : NPair(lmp), exchange(messages) {}
 
-    // Return the setting for which LAMMPS must build the list; empty if there is none
+    // Return the setting because of which LAMMPS must build the list; empty if there is none
     std::string left_to_lammps() const;
 
-    // Start a run with lists for particles up to the distance support plus the skin
+    // Start a run with lists of pairs up to the distance support + skin
     void init(const LoopSet *, Threads *, double support);
 
-    // Build the list of the pair style, requested as an occasional one, if LAMMPS has built its perpetual lists since the
-    // last call; return whether the list is new
+    // Build the list of the pair style, an occasional list for LAMMPS, if LAMMPS has built the perpetual lists since the last
+    // call; return whether the list is new
     bool update(NeighList *);
 
     void build(NeighList *) override;
@@ -74,8 +74,8 @@ namespace SPHDissipation {
     struct Part {
       Candidates owned, ghosts;      // of one cell
       std::vector<int> neighbors;    // of all rows of the list of this thread
-      std::vector<int> far;          // neighbors of one row beyond the support
-      std::vector<int> rows;         // particle of each row
+      std::vector<int> far;          // neighbors of one particle beyond the support
+      std::vector<int> rows;         // particle of each row of the list
       std::vector<bigint> offset;    // first neighbor of each row
     };
 
@@ -99,7 +99,7 @@ namespace SPHDissipation {
     void find_members(const NeighList *);
     void choose_cells();
     void find_rows();
-    void sort(Sorted &, int from, int to);    // members from ... to - 1
+    void sort(Sorted &, int from, int to);    // sorts members from ... to - 1 into cells
     void order_cells();
     void search(std::size_t from, std::size_t to, NeighList *,
                 Part &) const;    // cells order[from] ... order[to - 1]
@@ -110,7 +110,7 @@ namespace SPHDissipation {
     bool has_exclusions(int i) const;
     bool has_pair(int i, int j) const;
 
-    // Keep the entries j of found with keep(j); return their number
+    // Keep the entries j of found for which keep(j) is true; return the number of these entries
 
     template <class Keep> static int filter(int *found, int n, const Keep &keep)
     {

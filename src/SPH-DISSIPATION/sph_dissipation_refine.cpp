@@ -35,10 +35,11 @@ using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 static constexpr int ROUNDS = 30;
-static constexpr double EQUAL = 1.0e-9;           // tolerance of squares of distances
-static constexpr double ONE_CLASS = 2.5;          // ratio of the volumes of two that may merge
-static constexpr double FARTHEST = 0.35;          // distance of two that merge, over the support
-static constexpr double RESIDUAL_RADIUS = 0.5;    // reach of angular momentum, over the support
+static constexpr double EQUAL = 1.0e-9;     // tolerance of squares of distances
+static constexpr double ONE_CLASS = 2.5;    // largest ratio of volumes in a merge
+static constexpr double FARTHEST = 0.35;    // largest distance in a merge, over the support
+static constexpr double RESIDUAL_RADIUS =
+    0.5;                                    // of neighbors in RefineResidual, over the support
 static constexpr double STRETCHED = 1.4;    // spacing over its mean, above which splits are in two
 static constexpr double NEXT = 1.6;    // distance of neighbors that split together, in spacings
 
@@ -121,8 +122,8 @@ bool RefinePairs::fits(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   Return whether j is nearer to i than the other particle.  At equal distances the IDs decide; in a narrow box, positions
-   decide between two images of one particle.
+   Return whether j is nearer to i than the other particle.  At equal distances, IDs decide; in a narrow box, positions decide
+   between two images of one particle.
 ------------------------------------------------------------------------- */
 
 bool RefinePairs::nearer(int i, int j, int other) const
@@ -179,8 +180,8 @@ bool RefinePairs::is_first(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the members of the family that i leads, in the order of their IDs, each once, in its nearest
-   image.  Empty if the whole would be too large.
+   Return the members of the family that i leads, in the order of IDs, each member once, as the image nearest to i.  Return no
+   members if the merged particle would be too large.
 ------------------------------------------------------------------------- */
 
 std::vector<int> RefinePairs::family(int i, const int *neighbors, int n, double farthest_sq) const
@@ -423,7 +424,7 @@ void RefineEvent::set_states(int i, const Lump &one)
 }
 
 /* ----------------------------------------------------------------------
-   Tell whether particle i merges in this event.
+   Return whether particle i merges in this event.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::merging(int i) const
@@ -457,8 +458,8 @@ bigint RefineEvent::plan(NeighList *full, bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   Choose how particle i splits: into the parts of a cube; or, if neighbors are not arranged evenly or the parts would be too
-   small, into two along the axis on which the neighbors are farthest.  Return false if a daughter would leave the box.
+   Choose how particle i splits: into the parts of a cube; or into two parts along the axis on which the neighbors are
+   farthest, if neighbors are arranged unevenly or cubes would be too small.  Return false if a daughter would leave the box.
 ------------------------------------------------------------------------- */
 
 bool RefineEvent::find_stencil(NeighList *full, int i, Stencil &stencil) const
@@ -519,8 +520,8 @@ bigint RefineEvent::postpone(bigint most)
 }
 
 /* ----------------------------------------------------------------------
-   Give the residual angular momentum of the merges to neighbors.  A pair without neighbors that could
-   take it does not merge.
+   Give the residual angular momentum of the merges to neighbors.  A pair does not merge if the neighbors cannot take this
+   angular momentum.
 ------------------------------------------------------------------------- */
 
 void RefineEvent::give_residual(NeighList *full)

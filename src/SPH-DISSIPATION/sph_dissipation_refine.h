@@ -35,29 +35,28 @@ namespace SPHDissipation {
 
   enum RefineState { NOT_FLUID, KEEPS, SPLITS, MERGES };
 
-  // A particle, with all that its neighbors need in an event.  All doubles, to be sent as rows.
+  // A particle, with all numbers that its neighbors need in an event.  All members are doubles, for messages.
 
   struct RefineItem {
     double state;     // RefineState, see is()
     double mask;      // bits of its groups
-    double volume;    // now
-    double most;      // volume that a merge may give it
+    double volume;    // present volume
+    double most;      // largest volume that a merge may give the particle
     double family;    // lowest new ID of the daughters of its split; 0: none
     Lump lump;
 
-    // partner of a merge: ID of the chosen particle, or family that merges as a whole; settled: nonzero when the choice is
-    // final
+    // Partner of a merge: ID of the chosen particle, or number of the family that merges as a whole; settled: nonzero when
+    // the choice is final
 
     double choice, settled;
-    double
-        postponed;    // nonzero: the event is over the limit of this step; set for who splits or leads a merge
+    double postponed;    // nonzero: no event in this step; for particles that split or lead a merge
 
-    // The particle in the sums of its neighbors.  A pair that merges is a point in its center of mass: the particle with the
-    // lower ID has all mass, the other one has none
+    // The particle in the sums of its neighbors.  A pair that merges counts as a point in the center of mass of the pair: the
+    // particle with the lower ID has all mass, its partner has no mass
 
-    double mass, center[3], u[3];    // center: from the particle
+    double mass, center[3], u[3];    // center: relative to the particle
 
-    double gives;    // nonzero: its neighbors take its residual angular momentum
+    double gives;    // nonzero: neighbors take the residual angular momentum of this particle
     Rotation rotation;
 
     bool is(RefineState one) const { return state == static_cast<double>(one); }
@@ -69,11 +68,11 @@ namespace SPHDissipation {
    public:
     RefineItems(class LAMMPS *lmp, Fix *fix) : Pointers(lmp), fix(fix) {}
 
-    void resize();    // for the present particles; sets zeros
+    void resize();    // makes room for the present particles; sets zeros
     RefineItem &operator[](int i) { return items[i]; }
     const RefineItem &operator[](int i) const { return items[i]; }
 
-    // Send so many numbers of the items, from member first on, to the ghosts; 0: all following numbers.  Ghosts keep the
+    // Send numbers of the items to ghosts, from member first on; number = 0: all numbers from there on.  Ghosts keep the
     // positions of their periodic images.
 
     static constexpr int SIZE = sizeof(RefineItem) / sizeof(double);
@@ -87,15 +86,15 @@ namespace SPHDissipation {
    private:
     Fix *fix;
     std::vector<RefineItem> items;
-    int first = 0, count = 0;    // numbers of an item in the message
+    int first = 0, count = 0;    // first and count of the numbers of an item in a message
   };
 
-  // Finds the partners of merges.  Each particle that should merge chooses the nearest possible partner; two that have
-  // chosen each other are settled, the others choose again.  IDs decide between distances that are equal up to round-off, so
-  // that the pairs do not depend on the number of processors.
+  // Finds the partners of merges.  Each particle that should merge chooses the nearest possible partner; two particles that
+  // have chosen each other are settled, the others choose again.  IDs decide between distances that are equal up to
+  // round-off: so the pairs do not depend on the number of processors.
   //
-  // A family, all daughters of one split, merges first and as a whole, for spinning particles in three dimensions: pairs,
-  // one after the other, would not restore the moment of inertia of the parent.
+  // A family is all daughters of one split.  Families of spinning particles in three dimensions merge first and as a whole:
+  // merges of one pair after the other would not restore the moment of inertia of the parent.
 
   class RefinePairs : protected Pointers {
    public:
@@ -105,14 +104,14 @@ namespace SPHDissipation {
     void find_families(NeighList *full, double farthest, int size);
     void find(NeighList *full, double farthest);
     int mate(int i) const { return mates[i]; }    // owned or ghost particle; -1: none
-    bool leads(int i) const;                  // owned particle of a pair: i is the one that stays
-    std::vector<int> members(int i) const;    // particles of the merge that i leads
+    bool leads(int i) const;                      // owned particle of a pair: true if i stays
+    std::vector<int> members(int i) const;        // particles of the merge that i leads
 
    private:
     RefineItems &items;
     std::vector<int>
-        mates;    // partners; in a family: a member for the leader, the leader for the others
-    std::map<int, std::vector<int>> families;    // members, by their leader
+        mates;    // partner; in a family: a member for the leader, the leader for other members
+    std::map<int, std::vector<int>> families;    // members, by leader
 
     void settle();
     bool is_first(int i) const;
@@ -124,7 +123,7 @@ namespace SPHDissipation {
   };
 
   // Gives the residual angular momentum of a merge, which a particle without spin cannot hold, to the neighbors as a
-  // rotation.  Each planned pair counts as one point, even if the pair does not merge in the end.
+  // rigid rotation.  Each planned pair counts as one point, even if the pair does not merge in the end.
 
   class RefineResidual : protected Pointers {
    public:
@@ -135,10 +134,10 @@ namespace SPHDissipation {
 
     void init(double radius_in) { radius = radius_in; }
 
-    // Find the rotation of the neighbors of owned particle i.  Return false if there is none.
+    // Find the rotation of the neighbors of owned particle i.  Return false if no rotation has this angular momentum.
     bool give(NeighList *full, int i, const double *angmom);
 
-    // Sum up the velocity that each owned particle gets, and its work; the lower ID has those of a pair.
+    // Sum the velocity change of each owned particle, and the work of the change; in a pair, the lower ID has both.
     void take(NeighList *full);
     const double *velocity(int i) const { return &du[3 * i]; }
     double work(int i) const { return works[i]; }
@@ -153,8 +152,8 @@ namespace SPHDissipation {
     void offset(int from, int to, double *r) const;
   };
 
-  // Does all splits and merges of one time step, on all processors at once: plan() decides with the
-  // particles as they are, carry_out() changes them.
+  // Does all splits and merges of one time step, on all processors at once: plan() decides from the present particles,
+  // carry_out() changes the particles.
 
   class RefineEvent : protected Pointers {
    public:
@@ -166,20 +165,20 @@ namespace SPHDissipation {
 
     void init(const Fluid &, double smallest_share);
 
-    // Set the action of each owned particle, its present volume, the most that a merge may give it, and the target volume.
+    // For each owned particle, set the action, the present volume, the most volume after a merge, and the target volume.
     void begin();
     void set(int i, RefineState, double volume, double most, double target, double family);
 
-    // Decide which particles merge and how particles split, in at most so many events.  Changes the items only.  Return the
-    // number of events on all processors.
+    // Decide which particles merge and how particles split, in at most that many events: changes the items alone.  Return
+    // the number of events on all processors.
     bigint plan(NeighList *full, bigint most);
 
-    // Split and merge.  Calls changed(i, family) for each owned particle that has come from an event.
+    // Split and merge.  Calls changed(i, family) for each owned particle that an event has made.
     typedef std::function<void(int i, double family)> Changed;
     void carry_out(NeighList *full, const Changed &changed);
 
     RefineItems items;
-    tagint highest = 0;    // highest ID that was ever given
+    tagint highest = 0;    // highest ID so far
 
    private:
     RefineBalance &balance;

@@ -68,7 +68,7 @@ void SurfaceStage::begin()
 }
 
 /* ----------------------------------------------------------------------
-   Find the surface near particles with one of these bits; the normals of owned ones are vectors toward the fluid before.
+   Find the surface near particles with one of these bits.  Before, normals of owned particles are vectors toward the fluid.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find(int bits)
@@ -106,7 +106,7 @@ void SurfaceStage::find(int bits)
 }
 
 /* ----------------------------------------------------------------------
-   Set the normal of a boundary particle to a vector toward the fluid; zero out of its reach.
+   Set the normal of a boundary particle to a vector toward the fluid; zero if no fluid is within the support.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_sides(const BoundaryPairs &pairs)
@@ -142,7 +142,7 @@ void SurfaceStage::find_outer_layer(const Cells &cells, const std::vector<int> &
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
     const bool of_body = body && body[i] > 0.0;
-    if (!of_body && MathExtra::lensq3(s.normal) == 0.0) return;    // out of reach of the fluid
+    if (!of_body && MathExtra::lensq3(s.normal) == 0.0) return;    // no fluid in the support
     const SurfacePlane plane(cells, atom->x[i], s.spacing, support, dim, [&](int j) {
       return together(i, j) ? atom->vfrac[j] : 0.0;
     });
