@@ -118,8 +118,8 @@ struct Particles {
 };
 
 // Return, before half a kick, the heat that conserves the sum of kinetic and internal energy exactly.  The heat of the pair
-// style is minus the work of its forces at the velocity in the friction, acting.  Over half a kick, the forces do work at
-// the mean velocity of the kick.  The result is the difference; the same holds for spins.
+// style is minus the work of its forces own at the velocity in the friction, acting.  Over half a kick, these forces do work
+// at the mean velocity of the kick.  The result is the difference, energy; for torques likewise, with spins.
 
 double rest_of_heat(const TimeStep &step, const double *v, const double *acting, const double *f,
                     const double *own, double mass_inv)
@@ -352,19 +352,19 @@ bool FixSPHBulk::has_viscous_stage() const
 }
 
 /* ----------------------------------------------------------------------
-   Return numbers of the solver: first those of the friction, then those of the conduction of heat, see StiffStage.
+   Return numbers of the solver, see StiffStage: first of the friction, then of the conduction of heat.
 ------------------------------------------------------------------------- */
 
 double FixSPHBulk::compute_vector(int n)
 {
-  const auto *now = find_fluid(force);    // it may have been replaced since
+  const auto *now = find_fluid(force);    // a command may have replaced the fluid
   if (!now) return 0.0;
   constexpr int each = StiffStage::NSTATISTICS;
   return (n < each) ? now->viscous->statistics[n] : now->temperature->statistics[n - each];
 }
 
 /* ----------------------------------------------------------------------
-   Stop if a particle is in the groups of two such fixes: it would move twice in every step; warn of fixes of LAMMPS.
+   Stop if a particle is in the groups of two such fixes, since particles must move once in a step; warn of LAMMPS's fixes.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_integrated_once()
@@ -416,8 +416,8 @@ void FixSPHBulk::setup(int /*vflag*/)
 }
 
 /* ----------------------------------------------------------------------
-   Warn of fluid particles without an integrator, which may be forgotten or fixed on purpose, and of particles that only
-   LAMMPS's rigid bodies move: they act as fluid.  Walls do not count.
+   Warn of fluid particles without an integrator, forgotten or fixed on purpose, and of fluid particles that only LAMMPS's
+   rigid bodies move: these particles act as fluid.  Walls do not count.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::warn_not_integrated()
@@ -454,8 +454,8 @@ void FixSPHBulk::warn_not_integrated()
 
 /* ----------------------------------------------------------------------
    Set vest and the energy for the first forces.  A run that continues the last run begins with the extrapolated velocity and
-   energy of its last step, other runs with velocity and energy themselves.  The exchange of atoms comes later, so that ghost
-   atoms get these values.  With velocity remapping, vest is only the increment, see add_remapped_velocity().
+   energy of the last step, other runs with velocity and energy themselves.  The exchange of atoms comes later: so ghost atoms
+   get these values.  With velocity remapping, vest is only the increment, see add_remapped_velocity().
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::setup_pre_exchange()
@@ -504,7 +504,7 @@ void FixSPHBulk::post_run()
 }
 
 /* ----------------------------------------------------------------------
-   Leave traces of all particles: of all integrators, of other fixes, and of walls, which set their velocity themselves; see
+   Leave traces of the particles of all integrators, of other fixes, and of walls.  Walls set their velocity themselves, see
    Fluid::note_change().
 ------------------------------------------------------------------------- */
 
@@ -555,8 +555,8 @@ int FixSPHBulk::bits_not_followed() const
 }
 
 /* ----------------------------------------------------------------------
-   Set the fields of a particle that arrives in a run, at the end of a step.  The borders are set up later, so that ghosts
-   get the velocity, too.
+   Set the extrapolated velocities of a particle that arrives in a run, at the end of a step.  LAMMPS sets up the borders
+   later: so ghosts get these velocities, too.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::set_arrays(int i)
@@ -565,7 +565,7 @@ void FixSPHBulk::set_arrays(int i)
 }
 
 /* ----------------------------------------------------------------------
-   Let a particle join the group: the forces at the end of the step do the second half of its kick.
+   Let a particle join the group.  The forces at the end of the step do the second half of the particle's kick.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::arrive(int i)
@@ -614,7 +614,7 @@ void FixSPHBulk::set_masses()
 }
 
 /* ----------------------------------------------------------------------
-   Set the temperatures, after the masses of all integrators, which determine the densities.  A minimization does not change
+   Set the temperatures, after the masses of all integrators: densities depend on masses.  A minimization does not change
    internal energies.
 ------------------------------------------------------------------------- */
 
@@ -647,7 +647,7 @@ bool FixSPHBulk::sets_temperatures() const
 }
 
 /* ----------------------------------------------------------------------
-   Set the inertia from the volumes of the last force computation.  Particles with an inertia keep it, so that angular
+   Set the inertia from the volumes of the last force computation.  Particles with inertia keep their inertia: so angular
    momentum is conserved.
 ------------------------------------------------------------------------- */
 
@@ -819,7 +819,7 @@ void FixSPHBulk::warn_of_jump() const
 
 /* ----------------------------------------------------------------------
    Shift the particles of all fixes of this kind, after the first half of the step.  Particles without such a fix move with
-   the velocity from another fix.
+   the velocity that another fix has set.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::post_integrate()
@@ -896,8 +896,8 @@ Fields &FixSPHBulk::fields() const
 }
 
 /* ----------------------------------------------------------------------
-   Write what was set once.  A continued run keeps masses, temperatures, and inertia of the restart file, unless its input
-   has other numbers for temperature or inertia.
+   Write which masses, temperatures, and inertia are set.  A continued run keeps masses, temperatures, and
+   inertia of the restart file, unless the input has other numbers for temperature or inertia.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::write_restart(FILE *fp)

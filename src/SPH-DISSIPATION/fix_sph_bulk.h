@@ -64,8 +64,8 @@ class FixSPHBulk : public Fix {
   void write_restart(FILE *) override;
   void restart(char *) override;
 
-  // Set masses, then inertia from the volumes, of all integrators before the first forces.  Each is set once.  A fix that
-  // needs masses or inertia before the integrator is set up also calls these functions
+  // Set masses, then inertia from the volumes, once, before the first forces.  A fix that needs masses or inertia before the
+  // setup of the integrator also calls these functions
   void set_masses();
   void set_inertia();
   bool has_set_masses() const { return density_flag && density_done; }
@@ -81,18 +81,18 @@ class FixSPHBulk : public Fix {
   double dtv = 0.0, dtf = 0.0;
   bool diffuses = false;          // densities change by the diffusion of volume
   bool exact = false;             // motion and heat exchange energy exactly, see integrate()
-  double shift_speed = 0.0;       // scale and twice the limit of the velocity of particle shifting
+  double shift_speed = 0.0;       // U of particle shifting, twice the limit of its velocity
   bool forces_jump = false;       // particles were shifted in this step, without exact
-  bool shift_by_rate = false;     // this velocity follows the local rate of shear instead
+  bool shift_by_rate = false;     // U follows the local rate of shear instead
   int remap_v_flag = 0;           // fix deform remaps velocities at periodic boundaries
   int integrated_groups = 0;      // bits of all groups with an integrator of this kind
-  bool first_instance = false;    // acts for the particles outside all these groups
-  SPHDissipation::Fluid *fluid = nullptr;    // of the same name, if there is one
+  bool first_instance = false;    // this fix acts for particles outside all these groups, too
+  SPHDissipation::Fluid *fluid = nullptr;    // fluid of the same style; nullptr: none
   void check_set_up();
   void begin_step();
-  void shift_particles();    // of all fixes of this kind, by the first one
+  void shift_particles();    // the first instance shifts particles of all instances
   int nlocal_group() const;
-  int bits_not_followed() const;    // of groups whose particles get their extrapolation elsewhere
+  int bits_not_followed() const;    // groups for which reset_extrapolation() does not set vest
   SPHDissipation::TimeStep time_step() const;
   SPHDissipation::VolumeStep volume_step() const;    // without arrays
 
@@ -103,14 +103,14 @@ class FixSPHBulk : public Fix {
 
  private:
   const std::string fluid_style;    // also of the atom style and the pair style, without suffix
-  const bool spins;                 // the particles have them
+  const bool spins;                 // the particles have spins
   double dt_of_forces = 0.0;        // time step of the last forces
   double dt_of_states = 0.0;        // time step for which the states hold
   double extrapolation = 1.0;       // of velocities over half a step: 1, with thermal noise 0
   bool balanced = false;            // heat gets half of its rate at each end of a step, temp energy
   const std::unique_ptr<SPHDissipation::ViscousSettings> viscous;
   std::unique_ptr<SPHDissipation::Value> temperature;    // at the start, nullptr without
-  bool temperature_done = false;    // the particles have it, from this run or a restart file
+  bool temperature_done = false;    // particles have the temperature, also from a restart file
 
   SPHDissipation::Fields &fields() const;
   void read_keywords(int narg, char **arg);
@@ -118,16 +118,16 @@ class FixSPHBulk : public Fix {
 
   void reset_extrapolation();    // of particles that no such fix integrates
 
-  // A run continues the last run with the extrapolated quantities of its last step, if neither positions nor velocities of
-  // particles and walls have changed since
+  // A run continues the last run with the extrapolated quantities of the last step, if neither positions nor velocities of
+  // particles and walls have changed between the runs
 
   struct Last {
     bool known;    // a step was taken
-    double dt;     // its length
+    double dt;     // length of the step
   };
   Last last = {};
   std::unique_ptr<SPHDissipation::Changes>
-      changes;    // since then, of all groups; of the first instance
+      changes;    // between the runs, of all groups; first instance only
   SPHDissipation::Traced traced(int i) const;
   void leave_traces();
   bool is_continued() const;
@@ -139,7 +139,7 @@ class FixSPHBulk : public Fix {
   void add_remapped_velocity();
   bool has_torques() const;
   void set_temperatures();
-  void set_inertia_of(int i, double &inertia) const;    // unless it has one
+  void set_inertia_of(int i, double &inertia) const;    // unless the particle has inertia
   void check_inertia() const;
 
   int inertia_flag = 0;    // 1: the keyword is there, I = factor V^(2/n) + offset
@@ -147,13 +147,13 @@ class FixSPHBulk : public Fix {
   bool inertia_done = false;      // all particles but new ones have the inertia of these numbers
   int density_done = 0;           // the masses were set, in this run or before a restart
   int density_flag = 0;           // set the masses so that the mean density is rho0
-  bool set_up = false;            // since it was defined
+  bool set_up = false;            // a setup has run since the fix was defined
   FixSPHBulk *first = nullptr;    // the first instance
   bool energy_extrapolated = false;    // for the first forces of a run
-  bigint setup_step = 0;               // of the last setup
-  bool last_instance = false;          // acts when all are set up
+  bigint setup_step = 0;               // step of the last setup
+  bool last_instance = false;          // this fix acts after the setup of all instances
   bigint not_integrated = 0,
-         rigid_alone = 0;    // # of fluid particles that the last warnings were about
+         rigid_alone = 0;    // # of fluid particles in the last warnings
 };
 
 }    // namespace LAMMPS_NS

@@ -36,8 +36,8 @@ template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_
 typedef AlongBySquare<ShearChannel, ShearChannel::BY_SQUARE> AlongRBySquare;
 
 // AlongR or, with FR2, AlongRBySquare, with a mean of mu of both particles: within a fluid, the arithmetic mean, which has a
-// dissipation function; between two fluids, and with solid, the harmonic mean, with which a solid does not hold the fluid
-// within the support; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: all pairs have the arithmetic mean
+// dissipation function; between two fluids, and with solid, the harmonic mean: so a solid does not hold the fluid within the
+// support; next to a boundary (mu < 0), mu of the fluid.  ONE_FLUID: all pairs have the arithmetic mean
 template <bool ONE_FLUID, bool FR2>
 struct ByRate : PairTerm<ShearChannel, ShearChannel::ALIKE, ShearChannel::UNLIKE> {
   static constexpr bool CENTRAL = true, BY_RATE = true;
@@ -81,7 +81,7 @@ namespace SPHDissipation {
   //                                                           026705 (2003), with bulk term zero
   // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
   // micropolar mg/fr2: if zeta1 > 0, the term with zeta1 is the term of mg/fr2.  A negative zeta1 keeps the weight of zeta2:
-  // with this weight it is admissible.
+  // with this weight, a negative zeta1 is admissible.
 
   // Return the prefactor of the shear term per mu, in dimension n; mean_radius, mean_square = integrals of r W and r^2 W
   inline double shear_factor(Shear shear, int n, double mean_radius, double mean_square)

@@ -28,7 +28,7 @@ namespace SPHDissipation {
   // Most characters of a line of a data file that read_data reads
   constexpr std::size_t MOST_OF_DATA_LINE = 254;
 
-  // Return the states of all channels; return those of the channel with this place
+  // Return the states of all channels; return the states of the channel with this place
   const std::vector<StateInfo> &state_table();
   const StateInfo &state_info(int slot);
 
@@ -67,7 +67,7 @@ namespace SPHDissipation {
     int room(const StateInfo &) const;    // number of states of a channel with room
     static std::string state_name(int slot);
 
-    // Return the name of a field for that of the set command, sph/rho or sph/e; other names as they are
+    // Return the name of the field for the word of the set command, sph/rho or sph/e; return other names unchanged
     static std::string field_name(const std::string &name)
     {
       return (name == "sph/rho") ? "rho" : (name == "sph/e") ? "esph" : name;

@@ -23,13 +23,13 @@ namespace SPHDissipation {
 
   struct TimeStep {
     double dtv, dtf;
-    double keep;             // 1; or 0: the extrapolated velocity is the increment alone
-    double extrapolation;    // increments of half a step by which vest goes beyond the middle
-    bool shifted;            // particles were shifted in this step: their forces jump
+    double keep;             // 1; or 0: vest gets the increment alone
+    double extrapolation;    // time of vest, in half steps after the middle of the step
+    bool shifted;            // a shift in this step: the forces of particles jump
     bool balanced;           // temp energy: internal energies get half of the rate at each end
 
-    // Begin or end the step of particle i, kick it only, or set its extrapolated quantities as without forces.
-    // Particles: arrays, on host or device, as functions of i and the direction; without spins some are empty.
+    // begin(), end(): begin or end the step of particle i.  kick(): add half a kick alone.  follow(): set vest and omegaest
+    // as without forces.  Particles: arrays, on host or device, functions of i and direction; some are empty without spins.
 
     template <class Particles> SPH_FUNCTION void begin(const Particles &p, int i) const
     {
@@ -61,8 +61,8 @@ namespace SPHDissipation {
       kick(p, i);
     }
 
-    // Kinetic and internal energy gain dt^2/(4m) (df)^2 in a step in which the force on a particle changes by df: of second
-    // order in smooth motion, and of first order where the force jumps.  The extrapolated velocity has the force before
+    // Return the kinetic and internal energy, dt^2/(4m) (df)^2, that a particle gains if the force changes by df in a step:
+    // of second order in smooth motion, of first order where the force jumps.  vest has the force before the jump
 
     template <class Particles> SPH_FUNCTION double heat_of_jump(const Particles &p, int i) const
     {
@@ -90,7 +90,7 @@ namespace SPHDissipation {
       for (int d = 0; d < 3; d++) p.omegaest(i, d) = p.omega(i, d);
     }
 
-    // Return 1/(mass * inertia), or 0: without inertia a particle keeps its spin, and must have no torque
+    // Return 1/(mass * inertia); 0 without inertia: such a particle keeps its spin, and must have no torque
 
     SPH_FUNCTION static double inverse_inertia(double mass, double inertia)
     {
@@ -98,9 +98,9 @@ namespace SPHDissipation {
     }
 
     // Extrapolate the internal energy to the end of the step, so that the pressure of an ideal gas is accurate to second
-    // order in the time step; end_energy() corrects it with the new rate.  balanced: with random forces, which cannot be
-    // extrapolated, the energy gets half of the rate at each end of the step.  end_energy() sets rate_before to the energy
-    // that it has added, for a run that continues.
+    // order in the time step; end_energy() corrects the energy with the new rate.  balanced: the energy gets half of the rate
+    // at each end of the step, since random forces cannot be extrapolated.  end_energy() sets rate_before to the added
+    // energy, for a run that continues.
 
     SPH_FUNCTION void begin_energy(double rate, double &energy, double &rate_before) const
     {
@@ -115,11 +115,11 @@ namespace SPHDissipation {
   };
 
   // Diffusion of volume, at constant strains.  As internal energies, volumes get the old rate in a step, and half of the
-  // change of the rate later: when the next step begins, so that between steps densities are those of the forces.
+  // change of the rate when the next step begins: so, between steps, densities are the densities in the forces.
 
   struct VolumeStep {
     double dt, interval;    // time step; time between two evaluations of the rates
-    bool is_new;            // the last forces have evaluated them
+    bool is_new;            // the last forces have evaluated the rates
 
     // Arrays of owned particles, on host or device
 

@@ -114,8 +114,8 @@ namespace SPHDissipation {
     return (power == 2) ? support * support * mean : support * mean;
   }
 
-  // Kernel of the energy of pairs of unlike types, W = norm (1 - q^2)^2: the force is small at short distances, so that the
-  // energy of an interface hardly depends on the arrangement of the particles next to it.
+  // Kernel of the energy of pairs of unlike types, W = norm (1 - q^2)^2: the force is small at short distances, so the energy
+  // of an interface hardly depends on the arrangement of the particles next to the interface.
   // Particles at a plane form rows at the distance d = V^(1/n), the first one d/2 from the plane.  The sum over the rows is
   // less than the integral of z W_1(z), with W_1 the integral of W over a plane: by d^2 W_1(0)/12, the first term of Euler
   // and Maclaurin, which is the part ROWS d^2/R^2 of the integral.
@@ -158,7 +158,7 @@ namespace SPHDissipation {
 
   struct CohesionKernel {
     static constexpr double INNER = 0.85;
-    double support_inv[2], weight_norm[2], slope_norm[2];    // of the inner part, of the outer one
+    double support_inv[2], weight_norm[2], slope_norm[2];    // of the inner part, of the outer part
 
     CohesionKernel(int n, double support)
     {
@@ -174,7 +174,7 @@ namespace SPHDissipation {
     SPH_FUNCTION double slope(double r) const { return part(0, r, false) - part(1, r, false); }
 
     // Return A for this tension of a free surface.  The particles at a surface are no section of a uniform fluid: the
-    // tension of drops is SURFACE times that of the integral, see test_cohesion.py
+    // tension of drops is SURFACE times the integral's tension, see test_cohesion.py
     static double coefficient(int n, double support, double sigma)
     {
       constexpr double ALONG[] = {0.0, 1.0, 2.0 / KERNEL_PI, 0.5};    // <|x|>/<r>
@@ -227,8 +227,8 @@ namespace SPHDissipation {
         (support * support);
   }
 
-  // Return the Fourier transform of W, the integral of W(r) exp(i k.r), 1 for k = 0.  That of a shell of radius r is cos(k
-  // r), J_0(k r), sin(k r)/(k r) in 1, 2, 3 dimensions.
+  // Return the Fourier transform of W, the integral of W(r) exp(i k.r), 1 for k = 0.  A shell of radius r has the transform
+  // cos(k r), J_0(k r), sin(k r)/(k r) in 1, 2, 3 dimensions.
 
   inline double kernel_transform(Kernel kernel, int n, double k, double support)
   {

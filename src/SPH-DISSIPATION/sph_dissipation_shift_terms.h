@@ -19,7 +19,7 @@
 // In a time t, a particle moves from dense to thin regions by
 //   delta_i = t U_i R g_i, at most t U_i/2,   g_i = sum_j V_j F r_ij [1 + 0.2 (W/W(V_i^(1/n)))^4],
 // with the support radius R: S. J. Lind et al., J. Comput. Phys. 231, 1499 (2012); P. N. Sun et al., Comput. Methods Appl.
-// Mech. Eng. 315, 25 (2017).  Its velocity stays.  U_i is a given speed, or 5 R times the local rate of shear.
+// Mech. Eng. 315, 25 (2017).  The velocity stays.  U_i is a given speed, or 5 R times the local rate of shear.
 //
 // Neighbors move back, so that the center of mass does not move: the displacement is
 //   D_i = delta_i - (1/m_i) sum_j a_ij q_j,   q_i = m_i delta_i/A_i,   A_i = sum_j a_ij,
@@ -27,25 +27,24 @@
 // This changes the angular momentum by sum_i m_i D_i x v_i = sum_i q_i x sum_j a_ij u_ij, with the difference u of the
 // velocities.  Impulses of the pairs, at the distances r' after the displacement, take the change back:
 //   p_ij = a_ij (w_i + w_j) x r'_ij,   I_i w_i = -q_i x sum_j a_ij u_ij,   I_i = sum_j a_ij (r'^2 1 - r' r').
-// So each particle with its neighbors conserves momentum and angular momentum exactly.  The change of the kinetic energy
-// becomes heat.
+// So a particle and its neighbors conserve momentum and angular momentum exactly.  The change of the kinetic energy becomes
+// heat.
 
 #include "sph_dissipation_tensor.h"
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // A particle in a shift, with the velocity after the first half of the kick
+  // A particle in a shift; v = velocity after the first half of the kick
 
   struct ShiftRow {
     double vol = 0.0, mass = 1.0;    // vol 0: the particle does not shift
-    double speed = 0.0;              // given part of U
+    double speed = 0.0;              // given speed, added to U
     double per_rate = 0.0;           // U per rate of shear
     double contact = 0.0;            // see contact_inverse(), of all particles
-    double q[3] = {},
-           v[3] = {};    // v less the velocity in the last forces, see velocity_in_shift()
-    double d[3] = {};    // delta, then D
-    double w[3] = {};    // the lost angular momentum, then w
+    double q[3] = {}, v[3] = {};     // v - u with u of the last forces, see velocity_in_shift()
+    double d[3] = {};                // delta, then D
+    double w[3] = {};                // the lost angular momentum, then w
   };
 
   // Shift of one fix: the bit of its group, and the speed U; automatic: U follows the local rate of shear instead
@@ -69,8 +68,8 @@ namespace SPHDissipation {
   struct ShiftSum {
     double gradient[3] = {};               // g
     double share = 0.0;                    // A
-    double slopes[9] = {};                 // of the velocity, sum_j V_j F u r, by rows
-    double tensor[MOST_OF_TENSOR] = {};    // sum_j V_j F r r, where surfaces matter
+    double slopes[9] = {};                 // gradient of u, sum_j V_j F u r, by rows
+    double tensor[MOST_OF_TENSOR] = {};    // sum_j V_j F r r, with ShiftLaw::surfaces
   };
 
   // Second loop: sums over the neighbors that shift, sum_j a_ij q_j and sum_j a_ij u_ij
@@ -79,7 +78,7 @@ namespace SPHDissipation {
     double moved[3] = {}, slip[3] = {};
   };
 
-  // Third loop: at the new places, sum_j a_ij r' r'
+  // Third loop: sum_j a_ij r' r', at the new positions
 
   struct ShiftTensor {
     double a[MOST_OF_TENSOR] = {};
@@ -101,7 +100,7 @@ namespace SPHDissipation {
     bool surfaces;            // no particle is pushed out of a free surface
   };
 
-  // Return 1/shape at the distance of a neighbor on a lattice of particles of this volume
+  // Return 1/shape of the kernel at the distance of a neighbor on a lattice of particles of this volume
 
   template <class K> SPH_FUNCTION double contact_inverse(int dim, double support, double vol)
   {
@@ -119,7 +118,7 @@ namespace SPHDissipation {
     return vol * (slope * (1.0 + PAIRING * close * close));
   }
 
-  // Return a_ij
+  // Return a_ij; slope = F
 
   SPH_FUNCTION double shift_share(double slope, const ShiftRow &a, const ShiftRow &b)
   {
@@ -162,7 +161,7 @@ namespace SPHDissipation {
     return sqrt(sum);
   }
 
-  // Set delta and q.  A particle with few neighbors that shift does not move: these could not balance its displacement.
+  // Set delta and q.  A particle with few neighbors that shift does not move: few could not balance its displacement.
 
   SPH_FUNCTION void set_shift(const ShiftLaw &law, const ShiftSum &sum, ShiftRow &row)
   {

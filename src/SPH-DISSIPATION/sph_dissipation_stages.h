@@ -48,7 +48,7 @@ namespace SPHDissipation {
    protected:
     Engine &engine;
     Exchange &exchange;
-    // atoms that forces and heat go to: owned ones and, with newton on, ghosts
+    // Return the number of atoms that get forces and heat: owned atoms and, with newton on, ghosts
     int nforce() const;
   };
 
@@ -97,7 +97,7 @@ namespace SPHDissipation {
    public:
     using SharedStage<Space>::SharedStage;
 
-    void run();    // with the volumes of particles set
+    void run();    // the volumes of particles are set
     double memory_usage() const { return Space::bytes_of(bound); }
 
     typename Space::template Array<double> bound;    // B of owned and ghost atoms
@@ -109,8 +109,8 @@ namespace SPHDissipation {
    public:
     using SharedStage<Space>::SharedStage;
 
-    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep both.  Particles of open
-    // zones have them as fluid has; walls, their bits, have none.  keep(): set the kept viscosities
+    // run(): set viscosities from the rates of shear at the present velocities; owned particles keep both numbers.  Particles
+    // of open zones have viscosities as fluid; walls (bits of groups) have none.  keep(): set the kept viscosities
     void run(int walls);
     void keep();
   };
@@ -121,8 +121,8 @@ namespace SPHDissipation {
    public:
     using SharedStage<Space>::SharedStage;
 
-    // Boundary particles (groups not_fluid) get zero.  Return the number of owned particles whose coefficient is beyond the
-    // bound (of LimitStage; nullptr without)
+    // Boundary particles (groups not_fluid) get zero.  Return the number of owned particles with a coefficient beyond the
+    // bound of LimitStage (nullptr: no bound)
 
     bigint run(const double *bound, int not_fluid);
 
@@ -141,8 +141,8 @@ namespace SPHDissipation {
    public:
     using SharedStage<Space>::SharedStage;
 
-    // Advance the states by the time step of the parameters, from the last forces.  Particles of open zones keep states that
-    // are no strains; walls, their bits, keep none.  noise[k * nlocal + i] = thermal noise of the state at place k < end
+    // Advance the states by the time step of the parameters, from the last forces.  Particles of open zones keep states other
+    // than strains; walls (bits of groups) keep no state.  noise[k * nlocal + i] = thermal noise of the state at place k < end
 
     void advance(int not_fluid, int walls, const double *noise, int end) const;
 
@@ -167,7 +167,7 @@ namespace SPHDissipation {
     // Return the heat per time that particles of a group got in run(), on this processor
     double received(int groupbit) const;
 
-    void forget() { this->space.forget_flows(); }    // the rates of the last forces
+    void forget() { this->space.forget_flows(); }    // drops the rates of the last forces
   };
 
   // Diffusion of volume, after pass 2, see sph_dissipation_diffusion_terms.h.  The particles keep the rates of volumes and
@@ -191,7 +191,7 @@ namespace SPHDissipation {
 
     double memory_usage() const { return Space::bytes_of(rows, impedances) + bytes(sums, flow); }
 
-    // of owned, ghost, and spare particles, as the next two
+    // Of owned, ghost, and spare particles, like the next two members
 
     typename Space::template Array<DiffusionRow> rows;
     typename Space::template Array<double> impedances;
@@ -212,7 +212,7 @@ namespace SPHDissipation {
     int interval() const;    // steps from one shift to the next one
     ShiftLaw law() const;
 
-    // Change positions, velocities, extrapolated velocities, and internal energies of owned particles.  keep: as of TimeStep
+    // Change positions, velocities, extrapolated velocities, and internal energies of owned particles; keep: see TimeStep
     void run(double keep);
     double memory_usage() const { return Space::bytes_of(rows); }
 
@@ -222,8 +222,8 @@ namespace SPHDissipation {
     typename Space::template Array<ShiftRow> rows;    // of owned and ghost particles
   };
 
-  // After pass 2: adds the sums of the engine, forces, torques, and heating of owned and ghost atoms, to the arrays of
-  // LAMMPS, which sends those of ghosts to their owners
+  // After pass 2: adds the engine's sums of forces, torques, and heating, of owned and ghost atoms, to the arrays of LAMMPS,
+  // which sends the sums of ghosts to their owners
 
   class ForceStage : public Stage {
    public:

@@ -96,7 +96,7 @@ namespace SPHDissipation {
     template <class Site> SPH_FUNCTION static double pressure(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double energy(const Site &) { return 0.0; }
     template <class Site> SPH_FUNCTION static double heat(const Site &) { return 0.0; }
-    // Return what the state adds to mu; return its largest value for a type.  The keyword must need RHEOLOGY
+    // Return the addition of the state to mu; return the largest addition for a type.  The keyword must need RHEOLOGY
     template <class Site> SPH_FUNCTION static double viscosity(const Site &) { return 0.0; }
     static double largest_viscosity(const double *) { return 0.0; }
     // Set the state of a particle if the particle is new (state 0); not called for StateKind::STRAIN.  Argument: temperature
@@ -123,7 +123,7 @@ namespace SPHDissipation {
     const char *name, *field, *keyword;
     StateKind kind;
     int first, most;    // places of its states
-    int owner;          // first place of the channel whose keyword makes room
+    int owner;          // first place of the channel with the keyword that makes room
     bool ghosts;
     double largest;
     // Return the number of states of a type with these coefficients; the time of state k (nullptr without INSTEAD)

@@ -31,8 +31,8 @@ namespace SPHDissipation {
     return 3.5 / slope_integral;
   }
 
-  // Return the largest stable time step of a mode with damping rate g, SAFETY/g: forces use the velocity extrapolated to the
-  // end of the step, with which the mode is stable for g dt < 1.
+  // Return the largest stable time step of a mode with damping rate g, SAFETY/g.  Forces use the velocity extrapolated to the
+  // end of the step: so the mode is stable for g dt < 1.
 
   constexpr double UNLIMITED_STEP = 1.0e300;
   constexpr double SAFETY = 0.9;
@@ -52,8 +52,8 @@ namespace SPHDissipation {
     return (speed > 0.0) ? ACOUSTIC * h / speed : UNLIMITED_STEP;
   }
 
-  // Return this step for a speed that grows by extra(dt), which falls with dt, as with states: they are stiff for steps
-  // below their times
+  // Return the largest step for sound of the speed speed + extra(dt).  extra(dt), from states, falls with dt: states are stiff
+  // in steps shorter than the relaxation times of these states
 
   template <class Extra> double acoustic_step(double h, double speed, Extra &&extra)
   {
@@ -85,9 +85,9 @@ namespace SPHDissipation {
     return (rate > 0.0) ? std::min(acoustic, 1.0 / rate) : acoustic;
   }
 
-  // Return the time per step over that with a skin of zero and no rebuilds.  A list lasts until a particle has moved by half
-  // of the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that is proportional to the length
-  // of the list, (support + skin)^dim.  Both are measured: bench/README.md.
+  // Return the time per step over the time with a skin of zero and no rebuilds.  A list lasts until a particle has moved by
+  // half of the skin.  A rebuild takes as long as REBUILD steps; LISTED is the part of a step that is proportional to the
+  // length of the list, (support + skin)^dim.  Both numbers are measured: bench/README.md.
 
   constexpr double REBUILD = 0.75, LISTED = 0.15;
 

@@ -23,8 +23,8 @@ class LAMMPS;
 
 namespace SPHDissipation {
 
-  // Changes by commands between two runs.  At the end of a run, each particle gets a trace: hashes of its traits, which it
-  // keeps, also in restart files.  The next run compares the hashes.
+  // Changes by commands between two runs.  At the end of a run, each particle gets a trace: hashes of its traits, which the
+  // particle keeps, also in restart files.  The next run compares the hashes.
 
   // Traits of a particle
 
@@ -36,23 +36,23 @@ namespace SPHDissipation {
 
   struct Changes {
     bool known = false;        // a run has ended before
-    bool particles = false;    // some have come or gone
-    bool box = false;          // the box, in periodic directions
-    bool step = false;         // the number of the step
-    bool of[NTRAIT] = {};      // traits of particles that have stayed
+    bool particles = false;    // particles have come or gone
+    bool box = false;          // the box has changed, in periodic directions
+    bool step = false;         // the number of the step has changed
+    bool of[NTRAIT] = {};      // this trait has changed, of particles that have stayed
 
     // Return true if nothing has changed motion or neighbors
     bool none_of_motion() const
     {
       return known && !particles && !box && !of[PLACE] && !of[VELOCITY] && !of[SPIN] && !of[TYPE];
     }
-    // Return true for the same particles at other places: then densities of density continuity follow their sums as in a
-    // motion; otherwise, and if a command has set any of them, all stay
+    // Return true for the same particles at other places: then densities of density continuity change as their sums, as in a
+    // motion; otherwise, and if a command has set any of these densities, all densities stay
     bool places_alone() const
     {
       return known && !particles && of[PLACE] && !of[TYPE] && !of[MASS] && !of[DENSITY];
     }
-    // Return true if positions are those of another time: also velocities, or the number of the step, have changed
+    // Return true if positions belong to another time: velocities, or the number of the step, have changed as well
     bool other_time() const { return of[PLACE] && (of[VELOCITY] || step); }
   };
 
