@@ -156,7 +156,7 @@ namespace SPHDissipation {
     int coefficient;
   };
 
-  // Friction tensor of a pair along and across e, for the velocity of slip and for the difference of the spins, in units of
+  // Friction tensor of a pair along and across e, for the slip velocity and for the difference of the spins, in units of
   // F V_i V_j (mg/fr: F r V_i V_j); along_by_square: in units of F r^2 V_i V_j.  The noise is the root of this tensor.
   struct PairFriction {
     double along, across, spin_along, spin_across, along_by_square;
@@ -170,13 +170,13 @@ namespace SPHDissipation {
     double viscosity[NVISCOSITY] = {};
     double zeta = 0.0;             // coefficient of the bulk term, mean of the types
     double heat_capacity = 0.0;    // per mass, the smaller one of both types
-    // by_rate: mu of any type is not constant.  Then alike: both types are one fluid; largest mu, and largest |zeta|
+    // by_rate: mu of any type is not constant.  Only then: alike, both types are one fluid; largest mu and largest |zeta|
     bool by_rate = false, alike = false;
     double largest_mu = 0.0, largest_zeta = 0.0;
   };
 
-  // Coefficients from pair_coeff for one channel.  type, smaller: of a type, or the larger and the smaller ones of two types;
-  // unlike: of unlike types
+  // Coefficients from pair_coeff for one channel.  type, smaller: coefficients of a type, or the larger and the smaller
+  // coefficients of two types; unlike: coefficients of unlike types
   struct OwnWords {
     const double *type, *smaller, *unlike;
     double flow = 0.0;    // mean coefficient of the flow of the channel
@@ -227,9 +227,9 @@ namespace SPHDissipation {
     static void add_columns(const PairFluid &, const OwnWords &, const double *, Add &&)
     {
     }
-    // Return the bulk viscosity of its pair terms
+    // Return the bulk viscosity of the pair terms of the channel
     static double intrinsic_kappa(const PairFluid &) { return 0.0; }
-    // Return the rate of its fastest mode, 1/time
+    // Return the rate of the fastest mode of the channel, 1/time
     static double rate(const PairFluid &, const OwnWords &, const double *, const PairInertia &)
     {
       return 0.0;
@@ -390,7 +390,7 @@ namespace SPHDissipation {
     SPH_FUNCTION double drag() const { return Channels::drag(a); }
     double gamma() const { return of<HeatChannel>()[HeatChannel::GAMMA]; }    // gruneisen
     double T0() const { return of<HeatChannel>()[HeatChannel::T0]; }
-    // Return the temperature at a heat per mass, and its inverse; return the solid fraction, 0 without melt
+    // Return the temperature at a heat per mass; return this heat; return the solid fraction, 0 without melt
     SPH_FUNCTION double temperature(double cv, double q) const
     {
       return HeatChannel::temperature(of<HeatChannel>(), cv, q);
@@ -408,7 +408,7 @@ namespace SPHDissipation {
 
   // A pair of types with its coefficients from pair_coeff for all channels
   struct TypePair : PairFluid {
-    TypeCoeffs type, smaller;    // the larger and the smaller ones of both types
+    TypeCoeffs type, smaller;    // the larger and the smaller coefficients of both types
     double unlike[Channels::NUNLIKE + 1] = {};
     double flow[Flows::NUMBER] = {};    // mean of the types
 

@@ -55,7 +55,7 @@ std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool
 }
 
 /* ----------------------------------------------------------------------
-   Find the particle with the lowest ID; without IDs, the first one on the first rank that has any.
+   Find the particle with the lowest ID; without IDs, the first such particle on the first rank that has any.
 ------------------------------------------------------------------------- */
 
 std::string SPHDissipation::first_particle(LAMMPS *lmp, const std::function<bool(int)> &wrong,
@@ -174,7 +174,7 @@ void FluidChecks::styles() const
         "si, cgs, micro, or nano, not {}",
         style, update->unit_style);
 
-  // the number density, forces, and walls of one fluid do not include another one
+  // number density, forces, and walls of one fluid do not include another fluid
 
   Pair *const first = force->pair_match("^" + style, 0, 1),
               *const second = force->pair_match("^" + style, 0, 2);
@@ -327,7 +327,7 @@ std::set<Kind> SPHDissipation::all_kinds(LAMMPS *lmp)
 {
   const Atom *const atom = lmp->atom;
   std::set<Kind> own;
-  Kind last{0, 0};    // particles alike come in a row
+  Kind last{0, 0};    // successive particles are often alike
   for (int i = 0; i < atom->nlocal; i++) {
     const Kind kind{atom->type[i], atom->mask[i]};
     if (kind != last) own.insert(last = kind);
@@ -371,7 +371,7 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 void FluidChecks::fluid_lists() const
 {
   if (!neighbor->nex_type && !neighbor->nex_group && !neighbor->includegroup) return;
-  int others = 0;    // groups with checks of their own
+  int others = 0;    // groups that other checks cover
   for (const auto &name : {"^sph/wall", "^sph/open"})
     for (const auto &ifix : modify->get_fix_by_style(name)) others |= ifix->groupbit;
 
@@ -637,7 +637,7 @@ void FluidChecks::sizes(int boundary_bits) const
 void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_bits) const
 {
   const bool gas = (model.choice.eos == Eos::IDEAL);
-  bigint number[2] = {0, 0}, all[2];    // of particles whose heat counts, of those without heat
+  bigint number[2] = {0, 0}, all[2];    // of particles whose heat counts; of these, without heat
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &type = model.coeffs[atom->type[i]];
     if (type.other || (atom->mask[i] & boundary_bits)) continue;

@@ -31,7 +31,7 @@ namespace SPHDissipation {
   class Engine;
   class FluidModel;
 
-  // Kind of a particle, which decides about its pairs: type and bits of groups
+  // Kind of a particle, on which its pairs in neighbor lists depend: type and bits of groups
 
   using Kind = std::pair<int, int>;
   std::set<Kind> all_kinds(LAMMPS *);    // kinds of the particles of all ranks
@@ -106,7 +106,7 @@ namespace SPHDissipation {
     // densities change with the positions
     void kept_states(const Changes &, bool densities_follow) const;
 
-    // Warn of densities of owned particles that differ much from those before, by the positions
+    // Warn of densities of owned particles that differ much from the densities before, by changed positions
     void followed_densities(const std::vector<double> &before) const;
 
     // Check that masses, velocities, spins, and all states are finite, as LAMMPS checks positions, and that densities and
@@ -123,8 +123,8 @@ namespace SPHDissipation {
     // their mask are not fluid.
     void energies(const std::function<double(int i)> &heat, int boundary_bits) const;
 
-    // Warn of pairs of particles, of fluid or of fluid and walls, in the same place if they are more than before; return
-    // their number
+    // Warn of pairs of particles in the same place, of fluid or of fluid and walls, if there are more than before; return the
+    // number of these pairs
     bigint places(const Engine &, double support, bigint before) const;
 
    private:

@@ -16,7 +16,7 @@
 
 // Equations of state of package SPH-DISSIPATION.  No LAMMPS include.
 //
-// The internal energy per mass is e = e_el(rho) + q, of which q is heat:
+// The internal energy per mass is e = e_el(rho) + q with the heat q:
 //   p = p_el(rho) + Gamma rho q,   T = q/cv,   c^2 = c_el^2(rho) + Gamma (Gamma + 1) q
 // with the constant Gamma of Mie and Grueneisen: at constant entropy dq = Gamma q/rho drho.
 //
@@ -47,7 +47,7 @@ namespace SPHDissipation {
     return (eos == Eos::IDEAL) ? 1.4 : 7.0;
   }
 
-  // Parameters of a type; the defaults, of a type without coefficients, give no pressure and no energy
+  // Parameters of a type; with the defaults, for a type without coefficients, pressure and energy are 0
 
   struct EosParams {
 

@@ -107,7 +107,7 @@ void FluidModel::settings(int narg, char **arg)
 }
 
 /* ----------------------------------------------------------------------
-   Set what follows from density continuity; delta, tension = words of these keywords, which need density continuity,
+   Set the choices that density continuity decides; delta, tension = words of these keywords, which need density continuity,
    nullptr: not given.
 ------------------------------------------------------------------------- */
 
@@ -411,7 +411,7 @@ static bool is_number(const char *word)
 }
 
 /* ----------------------------------------------------------------------
-   Return how many numbers follow the keyword arg[0]; of groups, all up to the next word that is no number.
+   Return how many numbers follow the keyword arg[0]; for groups, count all numbers up to the next word.
 ------------------------------------------------------------------------- */
 
 int FluidModel::number_of_values(const TypeKeyword &keyword, int narg, char **arg) const

@@ -41,13 +41,13 @@ namespace SPHDissipation {
     double kappa = 0.0;
     double rc = 0.0;
     double gamma = 0.0;    // 0: default of the equation of state
-    double cv = 0.0;       // heat capacity per mass; 0: that of the pair style
+    double cv = 0.0;       // heat capacity per mass; 0: cv of pair_style
     int intrinsic = 0;     // 1: kappa is the bulk viscosity of the shear term
     int other = 0;         // 1: the type belongs to another style of pair_style hybrid
   };
 
   // Settings of pair_style, and coefficients of types and of pairs of types from pair_coeff; writes and reads restart files,
-  // writes data files.  setflag is that of class Pair: which types and pairs of types are set.
+  // writes data files.  setflag of class Pair: which types and pairs of types have coefficients.
 
   class FluidModel : protected Pointers {
    public:
@@ -66,8 +66,8 @@ namespace SPHDissipation {
     double common_support(int **setflag) const;
     std::string summary(int dim, double support) const;    // one line for the log
 
-    // Return the array by type pair of a coefficient that other commands may vary during a run, see Pair::extract(): they
-    // set the entries i <= j.  adopt() takes over the new values, and returns whether any value is new.
+    // extract(): return the array by type pair of a coefficient that other commands may vary in a run, see Pair::extract();
+    // other commands set the entries i <= j.  adopt(): take the new values, and return whether any value is new.
 
     void *extract(const char *name, int &dim);
     bool adopt();
@@ -77,13 +77,13 @@ namespace SPHDissipation {
 
     void derive(int dim, double support);
     const Parameters &parameters() const { return *par; }
-    const Constants &constants() const;    // of these parameters
+    const Constants &constants() const;    // of the derived parameters
     bool conducts(int type) const;
     double stiffness(int type, double dt) const;    // of the states, see BaseState
     double diffusion_rate() const;    // of volume: fastest mode at reference densities
     void set_step(double dt);         // sets the numbers of the states for this time step
 
-    // Return the input of the coefficients of a pair of types; return the bulk viscosity of its pair terms
+    // Return the input of the coefficients of a pair of types; return the bulk viscosity of the pair's terms
 
     TypePair pair_fluid(int i, int j) const;
     double intrinsic_kappa(int i, int j) const;
@@ -111,9 +111,9 @@ namespace SPHDissipation {
     double temperature(int type, double q) const;
     double heat(int type, double T) const;
     bool has_temperatures() const;       // any type has a heat capacity
-    bool heat_acts(int type) const;      // on pressure, viscosity, or states, or it is conducted
+    bool heat_acts(int type) const;      // on pressure, viscosity, or states, or by conduction
     bool has_rheology() const;           // mu of any type is not constant
-    bool has_pair_energy() const;        // any types have an energy of their pairs
+    bool has_pair_energy() const;        // pairs of any types have an energy
     bool has_noise_of_states() const;    // with temp, states of any type have noise
     bool is_mixed(int i, int j) const { return !is_given[0][i][j]; }
 
@@ -135,12 +135,12 @@ namespace SPHDissipation {
     bool has_type(int type) const
     {
       return !coeffs[type].other;
-    }                       // its particles are of this fluid
+    }                       // particles of the type are of this fluid
     bool shared = false;    // some types belong to other styles
 
    private:
-    // Coefficient that extract() returns: first the viscosities, then the coefficients of unlike types, then those of types
-    // (their value for two types is only the mean); known = last value from the model
+    // Coefficient that extract() returns: first viscosities, then coefficients of unlike types, then of types (the
+    // value for two types is only the mean); known = last value from the model
 
     struct Variable {
       std::string name;
@@ -148,12 +148,7 @@ namespace SPHDissipation {
       double **known;
     };
 
-    enum {
-      C0,
-      KAPPA,
-      PB,
-      NOTHER
-    };    // the variables after those of pairs, before those of channels
+    enum { C0, KAPPA, PB, NOTHER };    // variables between variables of pairs and of channels
 
     const std::string style;
     const bool spins;
@@ -170,7 +165,7 @@ namespace SPHDissipation {
     int variable_of_pairs(const std::string &name) const;    // number in variables, or -1
     const TypeKeyword *keyword(const std::string &name) const;
     bool is_type_keyword(const std::string &name) const;
-    bool varies_no_flow(const char *name) const;    // name belongs to a flow that no type has
+    bool varies_no_flow(const char *name) const;    // true: name belongs to a flow that no type has
     bool is_of_pair_energy(const char *name) const;
     bool is_of_missing_group(int coefficient, int type) const;
     double &type_value(int, int);

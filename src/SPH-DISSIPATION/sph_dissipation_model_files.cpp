@@ -215,7 +215,7 @@ std::uint64_t FluidModel::hash() const
 }
 
 /* ----------------------------------------------------------------------
-   Write coefficients to a restart file, on rank 0: of the types that have them, and of unlike types with their own.
+   Write coefficients to a restart file, on rank 0: of types with coefficients, and of unlike types with given numbers.
 ------------------------------------------------------------------------- */
 
 void FluidModel::write_coeffs(FILE *fp, int **setflag) const

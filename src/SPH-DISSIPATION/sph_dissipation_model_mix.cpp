@@ -263,7 +263,7 @@ void FluidModel::check_pair(int i, int j) const
 }
 
 /* ----------------------------------------------------------------------
-   Check that the bulk term of type i has a noise: a negative coefficient has one only up to the bound of each particle.
+   Check that the bulk term of type i has a noise: a negative coefficient has noise only up to the bound of each particle.
 ------------------------------------------------------------------------- */
 
 void FluidModel::check_balance(int i) const
@@ -502,8 +502,8 @@ void FluidModel::warn_of_ignored() const
 }
 
 /* ----------------------------------------------------------------------
-   Return a variable that another command may vary; nullptr if it has no effect.  Torques, flows, and energies of pairs must
-   not begin during a run, because nothing has checked inertia, states, and styles for them.
+   Return a variable that another command may vary; nullptr if the variable has no effect.  Torques, flows, and energies of
+   pairs must not begin during a run, because nothing has checked inertia, states, and styles for them.
 ------------------------------------------------------------------------- */
 
 void *FluidModel::extract(const char *name, int &dim)

@@ -14,10 +14,10 @@
 #ifndef LMP_SPH_DISSIPATION_PAIR_SUMS_H
 #define LMP_SPH_DISSIPATION_PAIR_SUMS_H
 
-// Sums over the pairs of each particle, on the host and on a device.  add() adds a pair to the sum of particle i alone: a host
-// calls it for both particles of a pair, a device for each particle and its neighbors; both = shared(), a number of the pair
-// that does not depend on the side.  finish() gets the complete sum of an owned particle, on a device while other particles
-// still sum up: so it must not change what add() and shared() read.  No LAMMPS include.
+// Sums over the pairs of each particle, on the host and on a device.  add() adds a pair to the sum of particle i alone: a
+// host calls add() for both particles of a pair, a device for each particle and its neighbors; both = shared(), a number that
+// both particles of the pair have.  finish() gets the complete sum of an owned particle, on a device while other particles still
+// sum up: so finish() must not change data that add() and shared() read.  No LAMMPS include.
 
 #include "sph_dissipation_particle_terms.h"
 #include "sph_dissipation_shift_terms.h"
@@ -25,7 +25,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Bound of LimitStage
+  // The bound B of LimitStage
 
   struct BoundSum {
     typedef double Row;
@@ -153,7 +153,7 @@ namespace SPHDissipation {
 
   struct ReturnSum : ShiftPairs {
     typedef ShiftReturn Row;
-    VectorField x, v, vest;    // of owned particles, as the next one
+    VectorField x, v, vest;    // of owned particles, like the next member
     double *energy;
     double dt, keep, mvv2e;    // see finish_shift()
 

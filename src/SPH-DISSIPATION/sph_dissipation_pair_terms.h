@@ -15,8 +15,8 @@
 // one namespace, as sph_dissipation_kernel_shapes.h; each namespace must have a type Vec, square_root(a), larger(a, b), and
 // if_positive(a, b), see sph_dissipation_simd.h.
 //
-// r = r_i - r_j, u = u_i - u_j, slope = F; P1, P2, P3: see sph_dissipation_channels.h.  Forces are those on i, opposite on
-// j; each particle gets half of the heat of a pair.
+// r = r_i - r_j, u = u_i - u_j, slope = F; P1, P2, P3: see sph_dissipation_channels.h.  Forces act on i, the opposite forces
+// on j; each particle gets half of the heat of a pair.
 
 // Added to r and r^2 before a division: two particles at the same point, r = 0, exert no force on each other
 
@@ -113,7 +113,7 @@ template <class Of, int COEFF> struct AlongBySquare : PairTerm<Of, COEFF> {
   }
 };
 
-// Compute the heat of the channels alone
+// Compute the heat of the channels, without forces
 
 template <class Form> SPH_INLINE void find_heat(PairState &pair)
 {
@@ -124,8 +124,8 @@ template <class Form> SPH_INLINE void find_heat(PairState &pair)
 }
 
 // After add_vector(): give the fluid all heat of a pair with a boundary; no change if is_boundary is 0.  The heat is the
-// work of the friction at the boundary's own velocity and spin: q(u) + q(u - excess) - q(excess).  The quadratic form q is
-// half of the heat of the pair.  excess: a copy of the pair with u, s, and approach of the excess
+// work of the friction at the boundary's own velocity and spin: q(u) + q(u - excess) - q(excess), with the quadratic form q,
+// half of the heat of the pair.  excess: a copy of the pair with u, s, and approach of the excess, see struct Excess
 
 template <class Form>
 SPH_INLINE void add_boundary_heat(PairState &pair, PairState &excess, Vec is_boundary)
@@ -142,7 +142,7 @@ SPH_INLINE void add_boundary_heat(PairState &pair, PairState &excess, Vec is_bou
     if (Form::heats(c)) pair.heat[c] += is_boundary * (own.heat[c] - excess.heat[c]);
 }
 
-// A flow, see sph_dissipation_flows.h: return the mean of the coefficients of two particles, 0 if one of them is 0; return
+// A flow, see sph_dissipation_flows.h: return the mean of the coefficients of two particles, 0 if one is 0; return
 // the rate that i gets from j, with vv = F V_i V_j
 
 template <class Own, class Real> SPH_INLINE Real mean_coefficient(Own a, Real b)

@@ -36,7 +36,7 @@ namespace SPHDissipation {
     int other = 1;                      // 1: the type belongs to another style of pair_style hybrid
     States::Numbers states;             // for the time step
 
-    // Return the temperature at a heat per mass, with a heat capacity, and its inverse
+    // temperature(): return the temperature at heat q per mass, with a heat capacity; heat(): return q at a temperature
     SPH_FUNCTION double temperature(double q) const
     {
       return keywords.temperature(heat_capacity, q);
@@ -45,8 +45,8 @@ namespace SPHDissipation {
     bool has_solid() const { return keywords.rheology()[Rheology::SOLID_FACTOR] != 0.0; }
   };
 
-  // Settings and coefficients of the fluid and what follows from them, for one run or until a coefficient changes.
-  // FluidModel::derive() sets them; all other code reads them.
+  // Settings and coefficients of the fluid and the numbers that follow from both, for one run or until a coefficient changes.
+  // FluidModel::derive() sets this struct; all other code reads the struct.
 
   struct Parameters : Constants {
     std::vector<TypeParameters> type;    // by type, from 1

@@ -98,7 +98,7 @@ bool FluidReport::reads_densities() const
 }
 
 /* ----------------------------------------------------------------------
-   Warn once if over half of the particles have densities below 0.9 times that at which the pressure ends.  Without tension,
+   Warn once if over half of the particles have densities below 0.9 times the density without pressure.  Without tension,
    no force holds such a fluid together.  Spray is a small part of a fluid.
 ------------------------------------------------------------------------- */
 
@@ -184,8 +184,8 @@ std::string FluidReport::skin_text(const CoeffTable &table) const
 }
 
 /* ----------------------------------------------------------------------
-   Log the noise.  Warn if it has no effect, if rate * dt is large, or if sqrt(kT/m)/c0 is large.  rate = of the fastest
-   viscous mode.
+   Log the noise.  Warn if the noise has no effect, if rate * dt is large, or if sqrt(kT/m)/c0 is large.  rate = rate of the
+   fastest viscous mode.
 ------------------------------------------------------------------------- */
 
 void FluidReport::announce_noise(double rate)

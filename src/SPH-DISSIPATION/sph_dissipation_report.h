@@ -29,8 +29,8 @@ namespace SPHDissipation {
   class OpenStage;
   class ViscousStage;
 
-  // Lines of a fluid in the log, and its warnings at the start of a run and during a run.  All ranks call these functions;
-  // pressure(i) = of owned particle i.
+  // Lines of a fluid in the log, and warnings about the fluid at the start of a run and during a run.  All ranks call these
+  // functions; pressure(i) = pressure of owned particle i.
 
   class FluidReport : public Stage {
    public:

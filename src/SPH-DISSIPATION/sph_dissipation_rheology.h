@@ -16,13 +16,13 @@
 
 // Shear viscosities that depend on the rate of shear gamma = sqrt(2 E:E), E = deviator of the rate of strain, and on the
 // temperature T.
-// Three laws begin with mu of pair_coeff; a fluid has at most one of them:
+// In three laws, mu of pair_coeff is the first parameter; a fluid has at most one of these laws:
 //   power:    mu gamma^(n-1), between two bounds
 //   carreau:  mu_inf + (mu - mu_inf) [1 + (lambda gamma)^a]^((n-1)/a)
 //             P. J. Carreau, Trans. Soc. Rheol. 16, 99 (1972); K. Yasuda, R. C. Armstrong, R. E. Cohen, Rheol. Acta 20,
 //             163 (1981)
 //   cross:    mu_inf + (mu - mu_inf)/[1 + (lambda gamma)^m]       M. M. Cross, J. Colloid Sci. 20, 417 (1965)
-// Two terms are added to these, or to a constant mu:
+// Two terms are added to one of these laws, or to a constant mu:
 //   yield:        tau_y [1 - exp(-m gamma)]/gamma                 T. C. Papanastasiou, J. Rheol. 31, 385 (1987)
 //   smagorinsky:  rho l^2 gamma up to a bound                     J. Smagorinsky, Mon. Weather Rev. 91, 99 (1963)
 // A Bingham fluid has yield, a Herschel-Bulkley fluid has yield with power.  The sum has two factors:
@@ -40,7 +40,7 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   struct Rheology {
-    // Coefficients of a type; the first one of a law is 0 if the type does not have the law
+    // Coefficients of a type; the first coefficient of a law is 0 if the type does not have the law
     enum {
       POWER_N,
       POWER_LEAST,
@@ -68,7 +68,7 @@ namespace SPHDissipation {
       return (value < least) ? least : (value > most) ? most : value;
     }
 
-    // Return the factor of arrhenius at a temperature; its bound if T <= 0
+    // Return the factor of arrhenius at a temperature; the bound of the factor if T <= 0
     SPH_FUNCTION static double thermal_factor(const double *a, double T)
     {
       if (!(T > 0.0)) return a[ARRHENIUS_MOST];
@@ -106,7 +106,7 @@ namespace SPHDissipation {
       return sum;
     }
 
-    // Return the smallest and the largest viscosity; they grow with mu
+    // Return the smallest and the largest viscosity of the laws; both grow with mu
     struct Range {
       double least, most;
     };

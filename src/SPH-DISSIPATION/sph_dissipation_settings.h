@@ -100,7 +100,7 @@ namespace SPHDissipation {
     bool thermal = false;             // thermal noise
     double temperature = 0.0;         // of the noise
     bool own_temperatures = false;    // noise at the temperatures of the internal energies instead
-    double heat_capacity = 0.0;       // per mass, of types that have none of their own
+    double heat_capacity = 0.0;       // per mass, of types without cv in pair_coeff
     int seed = 0;
     bool continuity = false;    // the density is a sum and an offset that particles keep
     double delta = 0.0;         // strength of the diffusion of volume
@@ -132,7 +132,7 @@ namespace SPHDissipation {
   // Keyword of pair_coeff with coefficients of a type: count numbers, or up to count in groups of equal size.
   struct TypeKeyword {
     const char *name;
-    const char *words;    // names of its numbers, of one group, for messages
+    const char *words;    // names of the numbers, of one group, for messages
     int count;            // coefficients, at most
     int group;            // coefficients of a group; 0: no groups
     int needs;            // bits of enum Requirement
@@ -152,7 +152,7 @@ namespace SPHDissipation {
     return nullptr;
   }
 
-  // Pair terms of a run: those of a form of the shear force, with or without the optional ones
+  // Pair terms of a run: terms of a form of the shear force, with or without optional terms
   struct Terms {
     Shear shear;
     bool optional;
@@ -161,8 +161,8 @@ namespace SPHDissipation {
         one_fluid;    // all pairs have the same coefficients, and the arithmetic mean; read with by_rate
   };
 
-  // Columns of a row of sums over pairs: with spins the torque (3 numbers), then the heat of each channel with a bit, but
-  // not of the first one
+  // Columns of the sums of a particle over pairs: with spins the torque (3 numbers), then the heat of each channel with a
+  // bit, but not of the first channel
   struct ChannelColumns {
     bool spins;
     int bits;

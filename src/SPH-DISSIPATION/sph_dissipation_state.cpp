@@ -45,7 +45,7 @@ void FluidState::run(int group_in, int not_fluid_in, const std::function<double(
 }
 
 /* ----------------------------------------------------------------------
-   Find the particles of full support: those without a particle of a free surface in reach.  At a free surface,
+   Find the particles of full support, which contains no particle of a free surface.  At a free surface,
    R |sum_j w_j F r_ij| / c is between 1.4 and 2.4, for R of 2.5 to 6 spacings in 1 to 3 dimensions; inside it is 0 on
    lattices and below 1 if disordered.
 ------------------------------------------------------------------------- */
@@ -423,19 +423,19 @@ double FluidState::warn_of_elasticity(const std::string &fix_style, double movin
 {
   constexpr double REGULAR = 0.001;         // spread of the density; disordered particles yield
   constexpr double ELASTIC_PART = 0.25;     // missing part of the viscosity
-  constexpr double FEW = 10.0;              // of fewer particles, densities may be equal by chance
+  constexpr double FEW = 10.0;              // fewer particles may have equal densities by chance
   constexpr double SHEARED = 0.1;           // vorticity over the rate of density
   constexpr double STRAINED = 0.001;        // vorticity times the time of a driven flow
   constexpr double FROM_ROUNDOFF = 20.0;    // ln of the growth of a wave that is no longer small
 
-  // with density continuity, the pressure is that of the flow, and equal densities are no regular arrangement
+  // with density continuity, the pressure belongs to the flow, and equal densities are no regular arrangement
 
   if (engine.constants().dim == 1 || model.choice.continuity) return 0.0;
   LatticeStrain strain(lmp, engine, exchange);
   strain.run(full);
   const double k = MY_2PI / longest_wave();
 
-  int worst = 0;    // type of the largest part
+  int worst = 0;    // type with the largest part
   double largest_part = ELASTIC_PART, elasticity_of_worst = 0.0, wait = 0.0;
   for (int type = 1; type <= atom->ntypes; type++) {
     if (!has_type(type)) continue;

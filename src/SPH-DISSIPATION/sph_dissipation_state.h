@@ -25,8 +25,8 @@ namespace SPHDissipation {
 
   class FluidModel;
 
-  // Finds the change of the number density c of particles in a shear gamma of their arrangement: d2c/dgamma2 over c, which
-  // times the pressure is the shear modulus of a lattice (theory page).
+  // Finds the change of the number density c of particles in a shear gamma of their arrangement: d2c/dgamma2 over c.  Times
+  // the pressure, this number is the shear modulus of a lattice (theory page).
 
   class LatticeStrain : public Stage {
    public:
@@ -54,8 +54,8 @@ namespace SPHDissipation {
   };
 
   // Density and pressure of the fluid at the first step, by type, and the shear elasticity that the pressure gives to a
-  // regular arrangement.  Means are over the particles with a full support, that is without a free surface in reach; over
-  // all if there are none.
+  // regular arrangement.  Means are over the particles with a full support, which contains no free surface; over all
+  // particles if there are no such particles.
 
   class FluidState : public Stage {
    public:
@@ -89,9 +89,9 @@ namespace SPHDissipation {
 
     double warn_of_elasticity(const std::string &fix_style, double moving);
 
-    // Multiply the masses of the owned and ghost particles of run(), and of those with a bit of also, and factor[type], by
-    // one factor for each type: then the mean density of the type is rho0, if volumes do not depend on masses.  Return the
-    // largest |factor - 1|.
+    // Multiply factor[type] and the masses of owned and ghost particles, of run() and with a bit of also, by one factor for
+    // each type: then the mean density of the type is rho0, if volumes do not depend on masses.  Return the largest
+    // |factor - 1|.
 
     double scale_masses(std::vector<double> &factor, int also) const;
 

@@ -36,7 +36,7 @@ using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
 // Parts of the largest stable time step that keep the error of the energy below 1 and 0.1 percent of the kinetic energy at
-// the start, for a drop far from equilibrium; the error is of second order.  unittest/python/test_lattices.py checks them
+// the start, for a drop far from equilibrium; the error is of second order.  unittest/python/test_lattices.py checks both
 
 static constexpr double ONE_PERCENT_STEP = 0.15, TENTH_PERCENT_STEP = 0.05;
 
@@ -316,7 +316,7 @@ std::function<double(int, double)> Stability::sound() const
 }
 
 /* ----------------------------------------------------------------------
-   Return the smallest moment of inertia per mass, length^2, of all particles that have one; else UNLIMITED_STEP.
+   Return the smallest moment of inertia > 0 per mass, length^2, of all particles; UNLIMITED_STEP if there is none.
 ------------------------------------------------------------------------- */
 
 double Stability::smallest_inertia() const

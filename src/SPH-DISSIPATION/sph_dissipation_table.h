@@ -32,20 +32,20 @@ namespace SPHDissipation {
   struct PairInertia;
   struct TypePair;
 
-  // Table in the log of the coefficients and the largest stable time steps of the pairs of types: one row for each pair, the
-  // same columns in all rows.
+  // Table in the log of the coefficients and the largest stable time steps of the pairs of types: one row for each pair; all
+  // rows have the same columns.
 
   class CoeffTable {
    public:
     // fastest = speed of any particle
     CoeffTable(double fastest) : fastest(fastest) {}
 
-    // Add the row of types i and j; acoustic_step = largest stable time step for their sound, rate of the diffusion of
+    // Add the row of types i and j; arguments: largest stable time step for sound in these types, rate of the diffusion of
     // volume
     void add_row(int i, int j, const TypePair &, const PairInertia &, double acoustic_step,
                  double diffusion_rate);
     void add_contact(double step);    // largest stable time step of the contact of bodies
-    // Return the table, with lines on the accuracy of these steps, and on what the time step dt needs
+    // Return the table, with lines on the accuracy of these steps, and on the needs of the time step dt
     std::string text(double dt) const;
     double smallest_step() const { return smallest; }    // of all rows, with all terms together
     // Step of sound and other waves, of the diffusion of volume, and of flows that are not stiff
@@ -80,7 +80,7 @@ namespace SPHDissipation {
     static double rate_of(double step) { return (step < UNLIMITED_STEP) ? 1.0 / step : 0.0; }
   };
 
-  // Largest stable time steps of a fluid as it is now.  All ranks call these functions.
+  // Largest stable time steps of a fluid in its present state.  All ranks call these functions.
 
   class Stability : protected Pointers {
    public:
@@ -100,7 +100,7 @@ namespace SPHDissipation {
 
     double fall_time() const;
 
-    // Return the function with the speed of sound of owned particle i, as it is now, at another density
+    // Return the function with the speed of sound of owned particle i, in its present state but at density rho
 
     std::function<double(int i, double rho)> sound() const;
 

@@ -14,7 +14,7 @@
 #ifndef LMP_SPH_DISSIPATION_THREADS_H
 #define LMP_SPH_DISSIPATION_THREADS_H
 
-// Threads of one process that share its work.  No LAMMPS include.
+// Threads that share the work of one process.  No LAMMPS include.
 
 #include <cstddef>
 #include <cstring>
@@ -26,7 +26,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Return the memory of vectors, and of objects with memory_usage(), in bytes; of vectors of such, that of their elements
+  // Return the memory in bytes of vectors and of objects with memory_usage(); for vectors of these, sum over the elements
 
   template <class T> auto bytes_of(const T &one) -> decltype(one.memory_usage())
   {
@@ -48,7 +48,7 @@ namespace SPHDissipation {
     return (... + bytes_of(one));
   }
 
-  // Team of threads, here of one; the team of the KOKKOS package derives from this class.
+  // Team of threads, here of one thread; the team of the KOKKOS package derives from this class.
 
   class Threads {
    public:
@@ -92,8 +92,8 @@ namespace SPHDissipation {
     }
   };
 
-  // Sums by particle to which several threads add: the first thread to the result, each other one to its own rows, which are
-  // then added to the result.  Row: double, or a struct of doubles
+  // Sums by particle to which several threads add: the first thread adds to the result, each other thread to its own rows,
+  // which all threads then add to the result.  Row: double, or a struct of doubles
 
   template <class Row> class ThreadSums {
    public:
@@ -107,7 +107,7 @@ namespace SPHDissipation {
       add_up(threads, total, static_cast<int>(n));
     }
 
-    // Do the same if thread k adds to the rows of the particles touched[k] alone, each listed once
+    // Do the same if thread k adds only to the rows of the particles touched[k], each listed once
     template <class Task>
     void run(Threads &threads, Row *total, std::size_t n,
              const std::vector<std::vector<int>> &touched, const Task &task)
