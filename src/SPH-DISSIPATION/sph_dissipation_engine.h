@@ -402,7 +402,7 @@ namespace SPHDissipation {
    private:
     mutable std::vector<double> wall_energy;         // empty: no energy
     mutable std::vector<tagint> wall_energy_tags;    // IDs of the atoms of wall_energy
-    void follow_atoms() const;
+    void follow_atoms() const;                       // sorts wall_energy by the present owned atoms
     const LoopSet *loops = &loops_plain;
     const Parameters *par;
     const Constants *fixed;
@@ -436,7 +436,7 @@ namespace SPHDissipation {
     void set_rows();
     void set_weights();
     void grow_pairs(NeighList *, bool leaves_slopes);
-    LoopData part(int thread) const;
+    LoopData part(int thread) const;    // the rows of the neighbor list of this thread
     LoopData part(PairSubset &) const;
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);

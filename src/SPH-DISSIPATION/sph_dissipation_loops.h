@@ -228,6 +228,8 @@ namespace SPHDissipation {
       }
     };
 
+    // Pass force f on i and r = r_ij of the first n pairs of a block to the tally, one pair after the other
+
     inline void tally_block(PairTally *tally, int i, const Offset *j, int n, const Vec *f,
                             const Vec *r)
     {

@@ -97,8 +97,9 @@ namespace SPHDissipation {
 
     void check_box() const;
     void set_tangents();
-    double along(int k, const double *x) const;
-    int wrap(int k, int n) const;
+    double along(int k,
+                 const double *x) const;    // coordinate along direction k
+    int wrap(int k, int n) const;           // index of a node in the periodic or finite grid
   };
 
   template <class Function>
@@ -327,7 +328,7 @@ namespace SPHDissipation {
 
     const EosParams &eos(int i) const;
     double sound(int i, double rho, double q) const;
-    bool enters(int i) const;
+    bool enters(int i) const;    // the particle moves toward the fluid
     bool gets_heat(int i, Side) const;
     OpenState own_state(int i, Side) const;
     Reference reference(int i, Side) const;
@@ -382,7 +383,7 @@ namespace SPHDissipation {
     int fluidbit = 0;
     double given_spacing = 0.0, spacing = 0.0, half_width = 0.0, support = 0.0;
     double moved = 0.0;
-    tagint highest = 0;           // highest ID so far
+    tagint highest = 0;           // highest ID ever given
     bool unknown_end = true;      // where the rows end is not known
     bool unknown_sides = true;    // width of rows, and other particles among them, are not known
     Distance distance;

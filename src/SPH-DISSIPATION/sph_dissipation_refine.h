@@ -113,13 +113,13 @@ namespace SPHDissipation {
         mates;    // partner; in a family: a member for the leader, the leader for other members
     std::map<int, std::vector<int>> families;    // members, by leader
 
-    void settle();
+    void settle();    // marks owned particles with a partner; sends the marks to ghosts
     bool is_first(int i) const;
-    bool fits(int i, int j) const;
+    bool fits(int i, int j) const;    // types, groups, and volumes of i and j let both merge
     double distance_sq(int i, int j) const;
     bool nearer(int i, int j, int other) const;    // j is nearer to i than other
     std::vector<int> family(int i, const int *neighbors, int n, double farthest_sq) const;
-    int nearest(int i, const int *neighbors, int n, double farthest_sq) const;
+    int nearest(int i, const int *neighbors, int n, double farthest_sq) const;    // -1: none
   };
 
   // Gives the residual angular momentum of a merge, which a particle without spin cannot hold, to the neighbors as a
@@ -178,7 +178,7 @@ namespace SPHDissipation {
     void carry_out(NeighList *full, const Changed &changed);
 
     RefineItems items;
-    tagint highest = 0;    // highest ID so far
+    tagint highest = 0;    // highest ID ever given
 
    private:
     RefineBalance &balance;
@@ -203,8 +203,8 @@ namespace SPHDissipation {
     std::vector<Split> splits;
     std::vector<Merge> merges;
 
-    Lump lump(int i) const;
-    void set_lump(int i, const Lump &);
+    Lump lump(int i) const;                // of owned particle i, from the arrays of LAMMPS
+    void set_lump(int i, const Lump &);    // sets these arrays, states and density excepted
     void set_states(int i, const Lump &);
     bool merging(int i) const;
     bool families() const;    // all daughters of one split can merge as a whole

@@ -198,7 +198,7 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 
 /* ----------------------------------------------------------------------
    Set the curvature, the divergence of the normals over the dimensions of the surface, by least squares from the normals
-   around a particle; 0 in the edges of a hollow, where normals turn too much for the normal half way.
+   around a particle; 0 in concave edges, where normals turn too much for the mean normal of surface_heat().
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)

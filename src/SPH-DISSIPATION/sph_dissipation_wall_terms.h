@@ -252,7 +252,7 @@ namespace SPHDissipation {
     return (occupied > 0.5) ? occupied - 0.5 : 0.0;
   }
 
-  SPH_FUNCTION double stiffness_of_surface(double hardness, double mass, double c0)
+  SPH_FUNCTION double stiffness_of_surface(double hardness, double mass, double c0)    // k
   {
     return 2.0 * hardness * mass * c0 * c0;
   }
