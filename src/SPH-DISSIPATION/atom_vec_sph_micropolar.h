@@ -24,7 +24,7 @@ AtomStyle(sph/micropolar,AtomVecSPHMicropolar);
 
 namespace LAMMPS_NS {
 
-// The fields of sph/bulk, and those of spins
+// The fields of sph/bulk and of spins
 
 class AtomVecSPHMicropolar : public AtomVecSPHBulk {
  public:

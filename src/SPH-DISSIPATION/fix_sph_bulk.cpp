@@ -787,7 +787,7 @@ void FixSPHBulk::integrate(Half half)
 }
 
 /* ----------------------------------------------------------------------
-   Stop if init() has not run: time step, pair style, and forces would be those of another fix, or missing.
+   Stop if init() has not run: time step, pair style, and forces would be missing, or of another fix.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_set_up()

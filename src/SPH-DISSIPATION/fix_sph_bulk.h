@@ -144,11 +144,11 @@ class FixSPHBulk : public Fix {
 
   int inertia_flag = 0;    // 1: the keyword is there, I = factor V^(2/n) + offset
   double factor = 0.0, offset = 0.0;
-  bool inertia_done = false;      // all particles but new ones have the inertia of these numbers
-  int density_done = 0;           // the masses were set, in this run or before a restart
-  int density_flag = 0;           // set the masses so that the mean density is rho0
-  bool set_up = false;            // a setup has run since the fix was defined
-  FixSPHBulk *first = nullptr;    // the first instance
+  bool inertia_done = false;           // particles have inertia from these numbers, except new ones
+  int density_done = 0;                // the masses were set, in this run or before a restart
+  int density_flag = 0;                // set the masses so that the mean density is rho0
+  bool set_up = false;                 // a setup has run since the fix was defined
+  FixSPHBulk *first = nullptr;         // the first instance
   bool energy_extrapolated = false;    // for the first forces of a run
   bigint setup_step = 0;               // step of the last setup
   bool last_instance = false;          // this fix acts after the setup of all instances

@@ -310,7 +310,7 @@ void FixSPHOpen::warn_of_styles()
 }
 
 /* ----------------------------------------------------------------------
-   Warn if the masses of the zone are not quite those of the fluid, as when density rho0 has set the
+   Warn if masses of zone and fluid differ slightly, as when density rho0 has set the
    latter before the zone was there.  Particles of sizes that differ on purpose have masses that differ
    by more.
 ------------------------------------------------------------------------- */

@@ -40,7 +40,7 @@ namespace SPHDissipation {
     Balance(LAMMPS *lmp, int n) : Pointers(lmp), sum(n, 0.0) {}
 
     // Add a particle, times a factor, at these places of the sums, all but its internal energy:
-    // number, mass, momentum, angular momentum about the origin, kinetic energy with that of the spin.
+    // number, mass, momentum, angular momentum about the origin, kinetic energy, also of the spin.
     void count(int first, double factor, const Lump &);
     enum { MASS = 1, MOMENTUM = 2, ANGMOM = 5, KINETIC = 8, NCOUNTED };    // after the first
   };

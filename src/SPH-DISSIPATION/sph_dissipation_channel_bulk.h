@@ -67,7 +67,7 @@ namespace SPHDissipation {
     return -0.5 / bound;
   }
 
-  // Rate of the fastest mode, in units of zeta/(rho h^2), found as those of shear_rate()
+  // Rate of the fastest mode, in units of zeta/(rho h^2), found as the rates of shear_rate()
   constexpr double BULK_RATE = 1.6;
 
   struct BulkChannel : BaseChannel {

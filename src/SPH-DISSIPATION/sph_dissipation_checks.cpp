@@ -365,7 +365,7 @@ bool SPHDissipation::in_neighbor_lists(LAMMPS *lmp, const Kind &a, const Kind &b
 }
 
 /* ----------------------------------------------------------------------
-   Check also particles that another fix moves, as those of a rigid body: their densities need all neighbors.
+   Check also particles that another fix moves, such as rigid bodies: their densities need all neighbors.
 ------------------------------------------------------------------------- */
 
 void FluidChecks::fluid_lists() const

@@ -45,7 +45,7 @@ namespace SPHDissipation {
   // Remove an owned particle.  The last one takes its place.
   void remove_particle(LAMMPS *, int i);
 
-  // Find new IDs for particles, so many in a row for each, in the order of their own IDs, which does not depend on the
+  // Find new IDs for particles, successive IDs for each, in the order of the particles' own IDs, which does not depend on the
   // number of processors.  first = first new ID of each, highest = largest ID ever given, before and after.  Return false if
   // there are not enough IDs.
 

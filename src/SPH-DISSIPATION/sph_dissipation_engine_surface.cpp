@@ -62,7 +62,7 @@ void SurfacePairs::find(BoundaryRows &all, int nall, const std::function<int(int
 }
 
 /* ----------------------------------------------------------------------
-   Set a number of each copy by value(index of the atom); spare: that of the spare particles.
+   Set a number of each copy to value(index of the atom), and the number of spare particles to spare.
 ------------------------------------------------------------------------- */
 
 template <class T, class Value>

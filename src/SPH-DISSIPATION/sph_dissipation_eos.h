@@ -173,7 +173,7 @@ namespace SPHDissipation {
   }
 
   // Return the density at pressure p, by Newton's method from density rho with heat q per mass; NaN if there is none.  The
-  // heat is constant, n = 0, or that of constant entropy, n = Gamma.  The pressure is a convex function of the density.
+  // heat (n = 0) or the entropy (n = Gamma) is constant.  The pressure is a convex function of the density.
 
   inline double density_by_steps(Eos eos, const EosParams &par, double p, double q, double rho,
                                  double n)

@@ -27,7 +27,7 @@ class Pair;
 
 namespace SPHDissipation {
 
-  // A field of width doubles for each atom; those of atom i begin at first + i * stride
+  // A field of width doubles for each atom; the numbers of atom i begin at first + i * stride
 
   struct Field {
     double *first;

@@ -28,7 +28,7 @@ namespace SPHDissipation {
     double rho;                   // density
     double c;                     // sound speed, of frequency 0
     double mu;                    // shear viscosity
-    double kappa;                 // bulk viscosity, without that of relaxing processes
+    double kappa;                 // bulk viscosity, without relaxing processes
     std::vector<double> relax;    // kappa_r and tau of each relaxing process
   };
 

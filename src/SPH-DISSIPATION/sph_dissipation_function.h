@@ -44,7 +44,7 @@
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
-  // Powers and roots whose digits do not change with units that differ by powers of two, as those of pow() and cbrt() do.
+  // Powers and roots with the same digits in units that differ by powers of two; digits of pow() and cbrt() depend on units.
 
   SPH_FUNCTION double whole_power(double x, int n)
   {

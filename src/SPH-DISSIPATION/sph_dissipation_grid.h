@@ -30,7 +30,7 @@ namespace SPHDissipation {
   class Fluid;
   class Keywords;
 
-  // Values of points from those of particles: averages weighted by V W, or (linear) the weighted linear regression through
+  // Values of points from values of particles: averages weighted by V W, or (linear) the weighted linear regression through
   // the particles, which is exact for linear fields (moving least squares: P. Lancaster, K. Salkauskas, Math. Comput. 37,
   // 141 (1981)).
 
@@ -50,7 +50,7 @@ namespace SPHDissipation {
     ~ParticleGrid() override;
 
     // Map the values of owned and ghost particles to the points.  values[i] = volume, > 0 if the particle counts, then
-    // nfield values.  Return the number of points, of all processors, without a particle in reach: they get 0.
+    // nfield values.  Return the number of points, of all processors, without a particle in the support; their value is 0.
 
     bigint map(const Smoothing &, double **values, int nfield);
     const double *field(int k) const    // at the owned points, the first index fastest
@@ -58,7 +58,7 @@ namespace SPHDissipation {
       return fields[k].data();
     }
 
-    bool fits() const;    // the sub-domain of this processor is still that of the points
+    bool fits() const;    // the points still fill the sub-domain of this processor
 
     bigint npoint() const { return points; }    // owned
     Grid2d *lammps_grid2d() const { return grid2d.get(); }

@@ -28,8 +28,8 @@ namespace SPHDissipation {
 
   int place(LAMMPS *, const char *word);
 
-  // Stop at an unknown word.  text = what is unknown; names = the words that there are, of which the message has the nearest
-  // one first
+  // Stop at an unknown word.  text = beginning of the message; names = the known words, which the message lists, the nearest
+  // word first
 
   [[noreturn]] void unknown_word(LAMMPS *, const char *word, const std::string &text,
                                  std::vector<std::string> names);
@@ -38,7 +38,7 @@ namespace SPHDissipation {
 
   void demand_words(LAMMPS *, const std::string &command, int given, const std::string &names);
 
-  // The keywords at the end of a command: each is a name and a number of words.  A message lists those that is() has asked for.
+  // The keywords at the end of a command: each is a name and some words.  A message lists the names that is() has asked for.
   //
   //   for (Keywords key(lmp, "Fix sph/dt", 4, narg, arg); key.next();)
   //     if (key.is("min")) smallest = key.positive();

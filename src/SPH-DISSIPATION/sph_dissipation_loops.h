@@ -203,7 +203,7 @@ namespace SPHDissipation {
       }
     };
 
-    // Coefficients of a block of pairs: load() loads the ones that Used::uses(); before, of type 1 with itself
+    // Coefficients of a block of pairs: load() loads the coefficients that Used::uses(); before, of type 1 with itself
     template <class Row, class Used> struct Coeffs {
       static constexpr int N = WIDTH<Row>;
       Vec a[N];

@@ -50,7 +50,7 @@ namespace SPHDissipation {
     double memory_usage() const;    // bytes
 
    private:
-    // Cells near that of a particle, in a row along x from first to last, relative to the cell of the particle
+    // Cells near the cell of a particle, in a row along x from first to last, relative to the cell of the particle
 
     struct CellRow {
       int y, z, first, last;

@@ -100,8 +100,8 @@ void NoiseStage::begin_step(int not_fluid)
 }
 
 /* ----------------------------------------------------------------------
-   Raise the offset if reset_timestep goes back, so that random numbers continue: a setup repeats those of the last step, all
-   else has those of the next step.  rerun repeats the numbers.
+   Raise the offset if reset_timestep goes back: so random numbers continue.  A setup repeats the numbers of the last step, a
+   step has the numbers of the next step.  rerun repeats the numbers.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::count_step()

@@ -200,7 +200,7 @@ const EosParams &OpenCondition::eos(int i) const
 }
 
 /* ----------------------------------------------------------------------
-   Return the speed of waves that leave; with states, a speed between those of slow and fast waves.
+   Return the speed of waves that leave; with states, a speed between the speeds of slow and fast waves.
 ------------------------------------------------------------------------- */
 
 double OpenCondition::sound(int i, double rho, double q) const

@@ -150,7 +150,7 @@ void OpenStage::set_zones()
 }
 
 /* ----------------------------------------------------------------------
-   Set density and group of ghost particles to those of their owners.
+   Set density and group of ghost particles to the values of their owners.
 ------------------------------------------------------------------------- */
 
 void OpenStage::update_ghosts()

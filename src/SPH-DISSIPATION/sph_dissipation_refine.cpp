@@ -269,7 +269,7 @@ void RefinePairs::find(NeighList *full, double farthest)
 }
 
 /* ----------------------------------------------------------------------
-   Set r to the vector from the point of one item to that of another one.
+   Set r to the vector from the point of one item to the point of another item.
 ------------------------------------------------------------------------- */
 
 void RefineResidual::offset(int from, int to, double *r) const

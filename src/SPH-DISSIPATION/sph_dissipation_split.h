@@ -63,7 +63,7 @@ namespace SPHDissipation {
   };
 
   // Return eigenvalues and axes by Jacobi's method.  Off-diagonal elements of round-off size stay, so that the axes of an
-  // isotropic tensor are always those of the coordinates.
+  // isotropic tensor are always the coordinate axes.
 
   inline Eigen3 eigen(Symmetric s)
   {

@@ -120,8 +120,8 @@ void WallMotion::start()
 }
 
 /* ----------------------------------------------------------------------
-   Lay a parabola through the present values and those of the next two steps.  Set the rates to its change over the previous
-   step.  In a run of no steps, ramp() of variables would have no slope.
+   Lay a parabola through the present values and the values of the next two steps.  Set the rates to the change of the
+   parabola over the previous step.  In a run of no steps, ramp() of variables would have no slope.
 ------------------------------------------------------------------------- */
 
 void WallMotion::estimate_rates()

@@ -235,7 +235,7 @@ namespace SPHDissipation {
 
   constexpr double CONTACT = 1.7;
   typedef WendlandC2 ContactKernel;
-  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // that of ContactKernel
+  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // of ContactKernel
   constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces, over m c0^2
 
   // Return the contact kernel of a boundary particle with the volume vol; norm = norm of ContactKernel
