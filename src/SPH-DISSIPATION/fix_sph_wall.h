@@ -93,7 +93,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool move = true;
   std::unique_ptr<SPHDissipation::Bodies> bodies;     // which the fluid moves; nullptr: a wall
   bool elastic = false;                               // bodies whose particles move one by one
-  std::unique_ptr<SPHDissipation::ContactLaw> law;    // of contacts of bodies; nullptr: no contacts
+  std::unique_ptr<SPHDissipation::ContactLaw> law;    // of the contact of bodies; nullptr: none
   bool noise = false;                                 // the fluid has thermal noise
   bool checked = false;    // setup() has run, and has checked the thickness
 

@@ -235,10 +235,10 @@ namespace SPHDissipation {
 
   constexpr double CONTACT = 1.7;
   typedef WendlandC2 ContactKernel;
-  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // of ContactKernel
+  constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // that of ContactKernel
   constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces, over m c0^2
 
-  // Return the contact kernel of a boundary particle with the volume vol; norm = norm of ContactKernel
+  // Return the contact kernel of a boundary particle with the volume vol; norm = of ContactKernel
 
   SPH_FUNCTION NearKernel contact_kernel(int dim, double support, double norm, double vol)
   {
@@ -247,12 +247,12 @@ namespace SPHDissipation {
     return {vol * norm / whole_power(radius, dim), 1.0 / radius};
   }
 
-  SPH_FUNCTION double beyond_surface(double occupied)    // s, from the filled part of the support
+  SPH_FUNCTION double beyond_surface(double occupied)
   {
     return (occupied > 0.5) ? occupied - 0.5 : 0.0;
   }
 
-  SPH_FUNCTION double stiffness_of_surface(double hardness, double mass, double c0)    // k
+  SPH_FUNCTION double stiffness_of_surface(double hardness, double mass, double c0)
   {
     return 2.0 * hardness * mass * c0 * c0;
   }
@@ -262,7 +262,7 @@ namespace SPHDissipation {
     return 0.5 * stiffness * s * s;
   }
 
-  // Return the repulsive force between a fluid particle and a boundary particle at this distance, divided by the distance
+  // Return the force on a fluid particle at this distance from a boundary particle, over this distance
 
   SPH_FUNCTION double repulsion_of(double stiffness, double s, const NearKernel &wall,
                                    double distance)
