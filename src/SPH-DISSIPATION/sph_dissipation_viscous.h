@@ -56,7 +56,7 @@ namespace SPHDissipation {
     bool operator!=(const ViscousSettings &b) const { return !(*this == b); }
 
     // Return the time for the first guess of the velocity in the forces, in half steps after the middle of the step.  For a
-    // smooth velocity, the friction of the scheme is the friction at the velocity of this time.  The stages of RKL2 begin in
+    // smooth velocity, the best time is the time of the velocity in the friction of the scheme.  The stages of RKL2 begin in
     // the middle.  With noise, the velocity is not smooth.
 
     double extrapolation(bool noise) const

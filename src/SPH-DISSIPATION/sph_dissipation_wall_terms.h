@@ -209,9 +209,9 @@ namespace SPHDissipation {
   };
 
   // A fluid particle is inside a wall if boundary particles fill more than this part of its near support.  The near support
-  // is the smallest support of a fluid, a few particle spacings wide.  Boundary particles fill half of it at a plane
-  // surface, 7/8 in the corner of a box, and more only inside.  In a pore as wide as a particle, they fill as much of
-  // a larger support.
+  // is the smallest support of a fluid, a few particle spacings wide.  Boundary particles fill half of the near support at a
+  // plane surface, 7/8 in the corner of a box, and more only inside.  A larger support is as full in a pore of the width of
+  // a particle.
 
   constexpr double INSIDE_WALL = 0.9;
 
