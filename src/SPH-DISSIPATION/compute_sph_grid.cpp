@@ -114,7 +114,7 @@ void ComputeSPHGrid::compute_pergrid()
 }
 
 /* ----------------------------------------------------------------------
-   There is one grid with the name "grid", and one set of data on it with the name "data".
+   The only grid has the name "grid"; the only data on this grid have the name "data".
 ------------------------------------------------------------------------- */
 
 int ComputeSPHGrid::get_grid_by_name(const std::string &name, int &dim)

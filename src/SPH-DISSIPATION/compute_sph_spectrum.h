@@ -24,8 +24,8 @@ ComputeStyle(sph/spectrum,ComputeSPHSpectrum);
 
 namespace LAMMPS_NS {
 
-// Spectra of the solenoidal and the dilatational motion, of vorticity and density, by FFT of the fields
-// on a grid; their sums, and the power that they dissipate.
+// Spectra of the solenoidal and the dilatational motion, of vorticity and density, by FFT of the fields on a grid; sums of
+// the spectra, and the power that both motions dissipate.
 
 class ComputeSPHSpectrum : public SPHDissipation::GridCompute {
  public:

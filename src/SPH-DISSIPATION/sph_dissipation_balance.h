@@ -76,7 +76,7 @@ namespace SPHDissipation {
       ELASTIC = NUMBER + NCOUNTED,    // energy of the equation of state
       INTERNAL,
       HEAT,        // heat of merges, in the internal energy
-      ROTATION,    // energy that the rotation of neighbors took, out of the internal one
+      ROTATION,    // energy of the rotation of neighbors, from the internal energy
       COLDEST,     // smallest heat of a merge
       NVALUE
     };

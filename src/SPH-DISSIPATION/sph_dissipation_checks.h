@@ -91,7 +91,7 @@ namespace SPHDissipation {
     // Check that spins of the fluid are along z in 2d
     void spins() const;
 
-    // Warn of settings that press a free surface outward, turn it, or let it gain energy
+    // Warn of settings with which a free surface is pressed outward, turns, or gains energy
     void surface() const;
 
     // Check that particles have room for the states of their type; warn of times far below the time step

@@ -42,7 +42,7 @@ namespace SPHDissipation {
   // Append a copy of owned particle i with another ID and position; return its index.
   int create_copy(LAMMPS *, int i, tagint id, const double *x);
 
-  // Remove an owned particle.  The last one takes its place.
+  // Remove owned particle i.  The last owned particle gets the index i.
   void remove_particle(LAMMPS *, int i);
 
   // Find new IDs for particles, successive IDs for each, in the order of the particles' own IDs, which does not depend on the

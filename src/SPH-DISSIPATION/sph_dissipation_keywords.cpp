@@ -33,7 +33,7 @@ int SPHDissipation::place(LAMMPS *lmp, const char *word)
 }
 
 /* ----------------------------------------------------------------------
-   Return the fewest characters to be inserted, deleted, or replaced that turn one word into another one.
+   Return the least number of insertions, deletions, and replacements of characters that turn word a into word b.
 ------------------------------------------------------------------------- */
 
 static int distance(const std::string &a, const std::string &b)

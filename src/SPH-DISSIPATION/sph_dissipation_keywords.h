@@ -55,7 +55,7 @@ namespace SPHDissipation {
 
     bool next();        // Go to the next keyword; false if there is none.
     void end_here();    // Stop at a word, of a command without keywords.
-    // If it is this one, go behind its words; more(): go behind more of them.  values = their names, for messages
+    // is(): if the keyword has this name, go behind its words.  more(): go behind more words.  values = names of the words
     bool is(const std::string &name, const std::string &values = "value");
     void more(const std::string &values);
 

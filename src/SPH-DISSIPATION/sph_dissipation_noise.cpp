@@ -75,7 +75,7 @@ StepNoise NoiseStage::run(const double *bound, int not_fluid, bool continued)
 }
 
 /* ----------------------------------------------------------------------
-   Set the noise of the friction that surfaces add to their pairs: it has separate random numbers, one along e.
+   Set the noise of the friction that surfaces add to pairs: this noise has separate random numbers, one along e.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::set_surface_noise()
@@ -149,8 +149,8 @@ void NoiseStage::set_tags()
 }
 
 /* ----------------------------------------------------------------------
-   Set the rows and mobilities of all particles.  A particle without heat has temperature 0: it gets no noise, and friction
-   heats it.  At the start of a run, stop or warn if there are such particles.
+   Set the rows and mobilities of all particles.  A particle without heat has temperature 0: such a particle gets no noise,
+   and friction heats the particle.  At the start of a run, stop or warn if there are such particles.
 ------------------------------------------------------------------------- */
 
 void NoiseStage::set_temperatures(bool continued, int not_fluid)

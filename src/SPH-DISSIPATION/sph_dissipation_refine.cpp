@@ -39,8 +39,9 @@ static constexpr double EQUAL = 1.0e-9;     // tolerance of squares of distances
 static constexpr double ONE_CLASS = 2.5;    // largest ratio of volumes in a merge
 static constexpr double FARTHEST = 0.35;    // largest distance in a merge, over the support
 static constexpr double RESIDUAL_RADIUS =
-    0.5;                                    // of neighbors in RefineResidual, over the support
-static constexpr double STRETCHED = 1.4;    // spacing over its mean, above which splits are in two
+    0.5;    // largest distance in RefineResidual, over the support
+static constexpr double STRETCHED =
+    1.4;                               // largest over mean spacing, above which splits are in two
 static constexpr double NEXT = 1.6;    // distance of neighbors that split together, in spacings
 
 /* ---------------------------------------------------------------------- */

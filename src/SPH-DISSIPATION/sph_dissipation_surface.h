@@ -42,8 +42,8 @@ namespace SPHDissipation {
     // residual of vectors that cancel each other
     static constexpr double RESIDUAL = 0.1;
 
-    // A body of a single layer has fluid on both sides: its vectors, at its ends and where it bends, are shorter than this
-    // part of the width; vectors of a body of two layers are longer
+    // A body of a single layer has fluid on both sides: vectors at ends and bends of the layer are shorter than this part of
+    // the width; vectors of a body of two layers are longer
     static constexpr double THIN = 0.2;
 
     double filled = 0.0,
