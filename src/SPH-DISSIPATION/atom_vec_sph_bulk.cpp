@@ -281,8 +281,8 @@ AtomVecSPHBulk::~AtomVecSPHBulk()
 /* ----------------------------------------------------------------------
    Add an array that class Atom has no member for, with one value per atom or with columns.  Class Atom owns the array as a
    custom property, which the library and other commands can read.  The array is not in fields_grow: style hybrid deletes its
-   sub-styles before it frees such arrays.  Do not call add_custom() of class AtomKokkos for a vector: it would sync the atom
-   style during its construction.
+   sub-styles before it frees such arrays.  Do not call add_custom() of class AtomKokkos for a vector: that function would sync the
+   atom style before the atom style is constructed.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulk::add_array(const std::string &name, double **vector, double ***array, int cols)

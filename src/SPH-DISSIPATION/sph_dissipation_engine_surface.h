@@ -70,8 +70,8 @@ namespace SPHDissipation {
       int wall;    // a particle of the body; for a boundary particle itself
     };
     std::vector<Index> index;
-    std::vector<int> place, rows,
-        count;    // of each row: its place in BoundaryRows, copy of its boundary particle, # of pairs
+    // By row of pairs: place in BoundaryRows, copy of the boundary particle, number of pairs
+    std::vector<int> place, rows, count;
     std::vector<bigint> first;
     std::vector<Particle> particle;
     std::vector<Spin> spin;    // empty without spins

@@ -129,7 +129,7 @@ void Fluid::init()
 }
 
 /* ----------------------------------------------------------------------
-   Request an occasional neighbor list, which NeighborSearch fills, or, with a line in the log, one that LAMMPS builds.
+   Request a neighbor list: NeighborSearch fills an occasional list.  A list that LAMMPS builds gets a line in the log.
 ------------------------------------------------------------------------- */
 
 void Fluid::request_list()
@@ -304,8 +304,9 @@ Fluid::Forces Fluid::kind() const
 }
 
 /* ----------------------------------------------------------------------
-   List the stages of the next forces, each with its condition, name, the data that it needs of earlier stages, and those that
-   it leaves.  An implicit step first needs the forces of a trial; repeated forces have its solution from the last run.
+   List the stages of the next forces.  Each line gives the condition of a stage, its name, the data that the stage needs, and
+   the data that the stage leaves.  An implicit step first needs the forces of a trial; repeated forces have the solution of
+   the last run.
 ------------------------------------------------------------------------- */
 
 void Fluid::list_stages()

@@ -257,8 +257,8 @@ namespace SPHDissipation {
     bool checks_places = false;    // the next forces, the first of a run, check_places()
     bigint shared_places = 0;      // pairs of particles in the same place at the last check
 
-    // The forces of a step: the first ones of a run with a motion of its own; those that continue the motion of the last run,
-    // with other coefficients or walls, or as they were; or later ones in a run
+    // Kinds of forces.  FIRST: the first forces of a run that does not continue the last run.  CHANGED, REPEATED: the first
+    // forces of a run that does, after a change of coefficients or walls, and without.  LATER: all other forces of a run
 
     enum class Forces { FIRST, CHANGED, REPEATED, LATER };
     Forces kind() const;
