@@ -99,9 +99,10 @@ namespace SPHDissipation {
     {
       const double s = beyond_surface(boundary.occupied(fluid));
       if (!(s > 0.0)) return 0.0;
-      const double stiffness = stiffness_of_surface(HARDNESS_OF_SURFACE, data.rmass[fluid],
-                                                    data.types[data.type[fluid]].eos.c0);
-      return repulsion_of(stiffness, s, boundary.contact(boundary.number(wall)), Kokkos::sqrt(rsq));
+      const Repulsion repulsion =
+          repulsion_of_surface(data.rmass[fluid], data.types[data.type[fluid]].eos.c0);
+      return force_of_repulsion(repulsion, s, boundary.contact(boundary.number(wall)),
+                                Kokkos::sqrt(rsq));
     }
   };
 

@@ -584,9 +584,9 @@ template <class DeviceType> double FluidKokkos<DeviceType>::wall_energy(double *
   double total = 0.0;
   for (int i = 0; i < atom->nlocal; i++) {
     if (is_boundary(i)) continue;
-    const double stiffness = stiffness_of_surface(HARDNESS_OF_SURFACE, atom->rmass[i],
-                                                  model->coeffs[atom->type[i]].eos.c0);
-    const double energy = energy_of_repulsion(stiffness, beyond_surface(occupied(i)));
+    const Repulsion repulsion =
+        repulsion_of_surface(atom->rmass[i], model->coeffs[atom->type[i]].eos.c0);
+    const double energy = energy_of_repulsion(repulsion, beyond_surface(occupied(i)));
     total += energy;
     if (each_atom) each_atom[i] += energy;
   }

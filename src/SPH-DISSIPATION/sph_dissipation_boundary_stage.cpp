@@ -426,12 +426,14 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 
 /* ---------------------------------------------------------------------- */
 
-double BoundaryStage::stiffness(int i) const
+Repulsion BoundaryStage::repulsion_of(int i) const
 {
   const Parameters &par = engine.parameters();
-  if (par.thermal && !par.own_temperatures) return 2.0 * HARDNESS * force->boltz * par.temperature;
-  return stiffness_of_surface(par.thermal ? HARDNESS_OF_SOUND : HARDNESS_OF_SURFACE, atom->rmass[i],
-                              par.type[atom->type[i]].eos.c0);
+  if (par.thermal && !par.own_temperatures)
+    return {2.0 * HARDNESS * force->boltz * par.temperature, 0.0};
+  const double mass = atom->rmass[i], c0 = par.type[atom->type[i]].eos.c0;
+  if (par.thermal) return {2.0 * HARDNESS_OF_SOUND * mass * c0 * c0, 0.0};
+  return repulsion_of_surface(mass, c0);
 }
 
 /* ----------------------------------------------------------------------
@@ -448,8 +450,8 @@ BoundaryStage::WallForce BoundaryStage::force_of(const BoundaryPair &pair) const
   }
   if (engine.parameters().thermal && !is_body(pair.wall))
     force.pressing = engine.weight(pair.fluid) * engine.weight(pair.wall) * w.g * pair.slope;
-  force.repulsion =
-      repulsion_of(stiffness(pair.fluid), over(pair.fluid), contact[pair.wall], pair.distance);
+  force.repulsion = force_of_repulsion(repulsion_of(pair.fluid), over(pair.fluid),
+                                       contact[pair.wall], pair.distance);
   return force;
 }
 
@@ -689,7 +691,7 @@ void BoundaryStage::add_energies(int n, const std::function<void(int, double)> &
     return 0;
   });
   for (int i = 0; i < atom->nlocal; i++)
-    if (!(atom->mask[i] & group_bits)) add(i, energy_of_repulsion(stiffness(i), over(i)));
+    if (!(atom->mask[i] & group_bits)) add(i, energy_of_repulsion(repulsion_of(i), over(i)));
 }
 
 /* ----------------------------------------------------------------------

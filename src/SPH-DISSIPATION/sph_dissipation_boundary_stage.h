@@ -193,7 +193,7 @@ namespace SPHDissipation {
     }
     double conductivity(int i) const;
     double over(int i) const { return beyond_surface(filled[i]); }
-    double stiffness(int i) const;
+    Repulsion repulsion_of(int i) const;
     void find_bits();
     void begin(NeighList *);
 

@@ -231,12 +231,19 @@ namespace SPHDissipation {
 
   // Repulsion of the surfaces with thermal noise or free surfaces: a fluid particle has the energy k s^2/2.  s = part of a
   // support of CONTACT spacings that boundary particles fill, less 1/2.  This part is 1/2 at the surface and at least 0.96
-  // inside of lattices.
+  // inside of lattices.  Spray is faster than the fluid: with free surfaces, a particle with s > DEEP has also the energy
+  // k' (s - DEEP)^2/2, together 0.3 m c0^2 inside of lattices.
 
   constexpr double CONTACT = 1.7;
   typedef WendlandC2 ContactKernel;
   constexpr Kernel CONTACT_KERNEL = Kernel::WENDLAND_C2;    // that of ContactKernel
   constexpr double HARDNESS_OF_SURFACE = 0.05;              // k/2 of free surfaces, over m c0^2
+  constexpr double HARDNESS_OF_CORE = 3.0;                  // k'/2, over m c0^2
+  constexpr double DEEP = 0.15;
+
+  struct Repulsion {
+    double stiffness, core;    // k, k'
+  };
 
   // Return the contact kernel of a boundary particle with the volume vol; norm = of ContactKernel
 
@@ -252,24 +259,32 @@ namespace SPHDissipation {
     return (occupied > 0.5) ? occupied - 0.5 : 0.0;
   }
 
-  SPH_FUNCTION double stiffness_of_surface(double hardness, double mass, double c0)
+  SPH_FUNCTION Repulsion repulsion_of_surface(double mass, double c0)
   {
-    return 2.0 * hardness * mass * c0 * c0;
+    const double energy = mass * c0 * c0;
+    return {2.0 * HARDNESS_OF_SURFACE * energy, 2.0 * HARDNESS_OF_CORE * energy};
   }
 
-  SPH_FUNCTION double energy_of_repulsion(double stiffness, double s)
+  SPH_FUNCTION double beyond_core(double s)
   {
-    return 0.5 * stiffness * s * s;
+    return (s > DEEP) ? s - DEEP : 0.0;
+  }
+
+  SPH_FUNCTION double energy_of_repulsion(const Repulsion &k, double s)
+  {
+    const double deep = beyond_core(s);
+    return 0.5 * (k.stiffness * s * s + k.core * deep * deep);
   }
 
   // Return the force on a fluid particle at this distance from a boundary particle, over this distance
 
-  SPH_FUNCTION double repulsion_of(double stiffness, double s, const NearKernel &wall,
-                                   double distance)
+  SPH_FUNCTION double force_of_repulsion(const Repulsion &k, double s, const NearKernel &wall,
+                                         double distance)
   {
     const double q = distance * wall.scale;
     if (!(s > 0.0 && q < 1.0)) return 0.0;
-    return stiffness * s * wall.norm * wall.scale * wall.scale * ContactKernel::slope(q);
+    return (k.stiffness * s + k.core * beyond_core(s)) * wall.norm * wall.scale * wall.scale *
+        ContactKernel::slope(q);
   }
 
   // Return the pressure of a wall particle with this acceleration, extrapolated from the fluid around; sum.weight > 0

@@ -69,6 +69,47 @@ def test_dam_break(lammps, case):
             assert front[np.isclose(time, when)][0] == pytest.approx(expected, abs=within)
 
 
+def fast_drops(dim, speed):
+    """Drops that fly at the corners of a box and at the edges of a post in it, at half the speed of sound or so."""
+    wide, low, high = (30, 12, 18) if dim == 2 else (14, 6, 8)
+    lattice, third = ("sq 1.0 origin", "0.0") if dim == 2 else ("sc 1.0 origin", "0.5")
+    text = (f"units lj\ndimension {dim}\nboundary f f {'p' if dim == 2 else 'f'}\natom_style sph/bulk\nlattice {lattice} 0.5 0.5 {third}\n"
+            f"region domain block -3 {wide + 3} -3 {wide + 3} {'-0.5 0.5' if dim == 2 else f'-3 {wide + 3}'}\ncreate_box 2 domain\n"
+            f"region box block 0 {wide} 0 {wide} {'INF INF' if dim == 2 else f'0 {wide}'} side out\n"
+            f"region post block {low} {high} {low} {high} INF INF\nregion walls union 2 box post\ncreate_atoms 2 region walls\n")
+    moves = ""
+    rng = np.random.default_rng(1)
+    corners = [(0, 0), (wide, wide), (0, wide), (wide, 0)], [(low, low), (high, high), (low, high), (high, low)]
+    for k, (outer, corner) in enumerate([(True, one) for one in corners[0]] + [(False, one) for one in corners[1]]):
+        if dim == 3 and k % 4 > 1:
+            continue
+        away = np.array([1 if (at < wide / 2) == outer else -1 for at in corner])    # from the walls
+        way = away * rng.uniform(0.3, 1.0, 2)
+        way /= np.hypot(*way)
+        center = corner + (4.0 if dim == 2 else 3.6) * away if outer else corner + (2.6 / np.abs(way).max() + 0.8) * way
+        x, y, z = *center, 0.0 if dim == 2 else 3.6 if outer else 7.0
+        vx, vy, vz = *(-speed * way), -0.5 * speed if dim == 3 and outer else 0.0
+        ox, oy, oz = rng.uniform(0, 1, 3) if dim == 3 else (*rng.uniform(0, 1, 2), 0.0)
+        text += f"lattice {lattice} {ox:.3f} {oy:.3f} {oz:.3f}\nregion drop{k} sphere {x:.3f} {y:.3f} {z} 2.1 units box\ncreate_atoms 1 region drop{k}\n"
+        moves += f"group drop{k} region drop{k}\nvelocity drop{k} set {vx:.4f} {vy:.4f} {vz}\n"
+    return (text + f"set group all mass 1.0\n{moves}group water type 1\ngroup tank type 2\nneighbor 0.5 bin\npair_style sph/bulk density continuity\n"
+            "pair_coeff * * 1.0 10.0 1e-6 9.0 3.0\nfix walls tank sph/wall slip free\nfix flow water sph/bulk\ntimestep 0.037\n"
+            f"region out block -0.7 {wide + 0.7} -0.7 {wide + 0.7} {'INF INF' if dim == 2 else f'-0.7 {wide + 0.7}'} side out\n"
+            "variable out equal count(water,out)\nvariable speed atom sqrt(vx^2+vy^2+vz^2)\ncompute speed water reduce max v_speed\n"
+            "thermo_style custom step atoms v_out ke c_speed\nthermo_modify norm no\nthermo 2\nrun 200\n")
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("speed", [3.0, 4.0, 5.0])
+def test_fast_drops_stay_outside(lammps, dim, speed):
+    """... of corners and edges, and bounce off slower than they came; the speed of sound is 10."""
+    result = lammps(fast_drops(dim, speed))
+    (table,) = result.thermo()
+    print(table["v_out"].max(), table["c_speed"].max() / speed, table["KinEng"][-1] / table["KinEng"][0])
+    assert table["v_out"].max() == 0 and table["Atoms"][-1] == table["Atoms"][0]
+    assert table["c_speed"].max() < 2.5 * speed and table["KinEng"].max() <= table["KinEng"][0] and table["KinEng"][-1] < 0.3 * table["KinEng"][0]
+
+
 def test_no_warning_about_the_lattice_of_a_long_run(lammps):
     """The hydrostatic pressure on a hexagonal lattice is no background pressure that somebody could leave out."""
     check(lammps(dam(commands="variable step equal step\nfix end all halt 1 v_step >= 1 error continue\nrun 20000\n", **CASES["hexagonal"])))
