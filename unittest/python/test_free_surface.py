@@ -69,6 +69,34 @@ def test_dam_break(lammps, case):
             assert front[np.isclose(time, when)][0] == pytest.approx(expected, abs=within)
 
 
+def test_repulsion_of_walls(lammps):
+    """Energy and force on a particle without pressure that comes into the corner of a box, against the formula of the page."""
+    c0, way = 10.0, np.array([0.8, 0.6])
+    places = [np.array([-0.1, 0.0]) - depth * way for depth in (-0.6, -0.2, 0.0, 0.1, 0.3)]
+    text = ("units lj\ndimension 2\nboundary f f p\natom_style sph/bulk\nlattice sq 1.0 origin 0.5 0.5 0.0\nregion domain block -4 8 -4 8 -0.5 0.5\n"
+            "create_box 2 domain\nregion box block 0 INF 0 INF INF INF side out\ncreate_atoms 2 region box\ncreate_atoms 1 single 4 4 0 units box\n"
+            f"set group all mass 2.0\npair_style sph/bulk density continuity\npair_coeff * * 2.0 {c0} 0.1 0.2 3.0\ngroup water type 1\ngroup tank type 2\n"
+            "set group water sph/rho 0.5\nfix walls tank sph/wall slip free\nfix flow water sph/bulk\ncompute E water pe/atom\ncompute e water reduce sum c_E\n"
+            "variable fx equal fcm(water,x)\nvariable fy equal fcm(water,y)\nthermo_style custom step c_e v_fx v_fy\n"
+            "thermo_modify norm no format float %.15g\nrun 0\n")
+    text += "".join(f"set group water x {x:.15g} y {y:.15g} sph/rho 0.5\nrun 0\n" for x, y in places)
+    far, *runs = lammps(text).thermo()
+    row = np.arange(-3.5, 8.0)
+    walls = np.array([(x, y) for x in row for y in row if x < 0 or y < 0])
+
+    def energy(place):
+        q = np.linalg.norm(walls - place, axis=1) / 1.7
+        s = 7 / (np.pi * 1.7**2) * (np.maximum(1 - q, 0)**4 * (1 + 4 * q)).sum() - 0.5
+        return 2.0 * c0**2 * (0.05 * max(s, 0)**2 + 3 * max(s - 0.15, 0)**2), s
+
+    for place, run in zip(places, runs):
+        (value, s), step = energy(place), 1e-6
+        slope = [(energy(place + step * e)[0] - energy(place - step * e)[0]) / (2 * step) for e in np.eye(2)]
+        assert run["c_e"][0] - far["c_e"][0] == pytest.approx(value, abs=1e-11 * c0**2), s
+        assert [run["v_fx"][0], run["v_fy"][0]] == pytest.approx([-one for one in slope], abs=1e-6 * c0**2), s
+    assert energy(places[0])[1] < 0 < energy(places[1])[1] and energy(places[-1])[1] > 0.4
+
+
 def fast_drops(dim, speed):
     """Drops that fly at the corners of a box and at the edges of a post in it, at half the speed of sound or so."""
     wide, low, high = (30, 12, 18) if dim == 2 else (14, 6, 8)
