@@ -551,10 +551,10 @@ def test_particle_in_a_wall(lammps, style, ranks):
 # free surfaces; test_continuity.py has the reference
 
 
-@pytest.mark.parametrize("ranks, newton, options, steps, bound", [
-    (1, "on", "", 20, 1e-12), (1, "on", "", 200, 1e-9), (2, "off", "delta 0", 200, 1e-9), (2, "on", "volume mass kernel cubic", 200, 1e-9),
-    (4, "on", "tension yes delta 0.5", 200, 1e-9)])
-def test_dam_break(lammps, style, ranks, newton, options, steps, bound):
+@pytest.mark.parametrize("ranks, newton, options, steps, bound, speed", [
+    (1, "on", "", 20, 1e-12, 0), (1, "on", "", 200, 1e-9, 0), (2, "off", "delta 0", 200, 1e-9, 0), (2, "on", "volume mass kernel cubic", 200, 1e-9, 0),
+    (4, "on", "tension yes delta 0.5", 200, 1e-9, 0), (1, "on", "", 30, 1e-9, 5)])
+def test_dam_break(lammps, style, ranks, newton, options, steps, bound, speed):
     """A column of fluid that falls between walls, which repel it: densities that were set, their diffusion, energy and stress of particles, which
     change processors and places."""
     particles = lattice(2, 20)
@@ -564,7 +564,7 @@ def test_dam_break(lammps, style, ranks, newton, options, steps, bound):
     particles = particles.where(~inside | ((x < 10) & (y < 14)))
     text = with_walls(style, particles, "cavity", fluids(style, 2, options=f"density continuity {options}"), steps, newton)
     text = text.replace("fix FLOOR FLOOR sph/wall", "variable R atom 1.0+0.01*(14-y)\nset group REST sph/rho v_R\n"
-                        "fix G REST gravity 2.0 vector 0 -1 0\nfix B all balance 40 1.0 shift x 5 1.01\natom_modify sort 25 2.0\n"
+                        f"velocity REST set {-speed} {-speed} 0 sum yes\nfix G REST gravity 2.0 vector 0 -1 0\nfix B all balance 40 1.0 shift x 5 1.01\natom_modify sort 25 2.0\n"
                         "compute P all pe/atom\ncompute S all stress/atom NULL virial\n"
                         f"compute G all property/atom offset {'id' if options == 'delta 0' else 'surface'}\nfix FLOOR FLOOR sph/wall gravity 0 -2 0", 1)
     own = ("c_G[1]", "c_G[2]", "d_rho_sum", "d_vol_rate", "d_vol_rate_before", "d_vol_heat", "d_vol_support", "c_P", "c_S[1]", "c_S[2]", "c_S[4]")
