@@ -22,7 +22,7 @@
 #include "neighbor.h"
 #include "sph_dissipation_fluid_kokkos.h"
 #include "sph_dissipation_integrate.h"
-#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_masks.h"
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;

@@ -24,7 +24,7 @@
 #include "neighbor.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_columns_kokkos.h"
-#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_masks.h"
 #include "sph_dissipation_wall_motion.h"
 
 #include <algorithm>

@@ -17,6 +17,7 @@
 
 #include "pair_sph_bulk_kokkos.h"
 
+#include "atom_masks.h"
 #include "comm.h"
 #include "error.h"
 #include "fix_sph_bulk.h"
@@ -86,6 +87,30 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
   return "";
 }
 
+/* ----------------------------------------------------------------------
+   Warn once of each fix for which LAMMPS copies all particles in every step; host and device may have one memory.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::warn_of_copies()
+{
+  using namespace FixConst;
+  if (std::is_same_v<LMPHostType, LMPDeviceType> || comm->me != 0) return;
+  constexpr int IN_EACH_STEP =
+      INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | PRE_REVERSE | POST_FORCE | FINAL_INTEGRATE;
+  for (int k = 0; k < modify->nfix; k++) {
+    const Fix &one = *modify->fix[k];
+    const int mask = modify->fmask[k];
+    const bool acts = (mask & IN_EACH_STEP) || ((mask & END_OF_STEP) && one.nevery == 1);
+    if (one.kokkosable || !acts || one.datamask_read != ALL_MASK) continue;
+    if (!copying.insert(one.id).second) continue;
+    error->warning(
+        FLERR,
+        "Fix {} of style {} has no suffix kk and acts in every step: LAMMPS copies all "
+        "particles to the host and back for it; use a fix with the suffix, or fewer steps",
+        one.id, one.style);
+  }
+}
+
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
@@ -112,6 +137,7 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
     no_virial_fdotr_compute = 0;
     return;
   }
+  warn_of_copies();
   execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
   datamask_read = device->space.read_mask();
   datamask_modify = device->space.modified_mask();

@@ -26,6 +26,9 @@ PairStyle(sph/bulk/kk/host,PairSPHBulkKokkos<LMPHostType>);
 #include "pair_kokkos.h"
 #include "pair_sph_bulk.h"
 
+#include <set>
+#include <string>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
   template <class DeviceType> class FluidKokkos;
@@ -47,6 +50,8 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
 
   bool runs_on_device() const;
   std::string on_host_because() const;
+  std::set<std::string> copying;    // fixes of the warning
+  void warn_of_copies();
 };
 
 }    // namespace LAMMPS_NS

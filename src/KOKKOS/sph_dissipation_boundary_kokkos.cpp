@@ -18,7 +18,7 @@
 #include "neighbor.h"
 #include "pair.h"
 #include "sph_dissipation_boundary_stage.h"
-#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_masks.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;

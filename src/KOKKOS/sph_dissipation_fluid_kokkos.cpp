@@ -195,6 +195,18 @@ template <class DeviceType> double FluidKokkos<DeviceType>::elastic_energy(Momen
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> void FluidKokkos<DeviceType>::get_from_device(uint64_t fields) const
+{
+  atomKK->sync(Host, fields);
+}
+
+template <class DeviceType> void FluidKokkos<DeviceType>::give_to_device() const
+{
+  atomKK->modified(Host, ALL_MASK);
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> bool FluidKokkos<DeviceType>::has_own_forces() const
 {
   if (!on_device) return Fluid::has_own_forces();

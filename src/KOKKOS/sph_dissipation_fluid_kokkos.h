@@ -53,6 +53,8 @@ namespace SPHDissipation {
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;
     double received_heat(int groupbit) const override;
+    void get_from_device(uint64_t fields) const override;
+    void give_to_device() const override;
     double memory_usage() const override;
 
     // Stages on the device; public, because CUDA requires this of functions with lambdas

@@ -66,21 +66,82 @@ namespace SPHDissipation {
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // empty: not requested
   };
 
-  // Call function(j, r = r_i - r_j, r^2) for each neighbor of particle i inside the support
+  // The row of a neighbor.  What limits the loops on a GPU is the number of loads of such rows, so each load has 16 bytes, and
+  // is there once: the place is read at first, the rest only inside the support
+
+  struct TwoNumbers {
+    double a, b;
+  };
+
+  class NeighborRow {
+   public:
+    SPH_FUNCTION NeighborRow(const Particle &row) :
+        row(row), first(load(row.x)), second(load(row.x + 2))
+    {
+    }
+    // Set r = r_i - r_j; return r^2
+    SPH_FUNCTION double distance(const Particle &pi, double *r) const
+    {
+      r[0] = pi.x[0] - first.a;
+      r[1] = pi.x[1] - first.b;
+      r[2] = pi.x[2] - second.a;
+      return dot(r, r);
+    }
+    SPH_FUNCTION void velocity(const Particle &pi, double *u) const
+    {
+      const TwoNumbers third = load(row.u + 1);
+      u[0] = pi.u[0] - second.b;
+      u[1] = pi.u[1] - third.a;
+      u[2] = pi.u[2] - third.b;
+    }
+    SPH_FUNCTION void volume_and_g(double &vol, double &g) const
+    {
+      const TwoNumbers fourth = load(&row.vol);
+      vol = fourth.a;
+      g = fourth.b;
+    }
+
+   private:
+    const Particle &row;
+    const TwoNumbers first, second;
+
+    static SPH_FUNCTION TwoNumbers load(const double *from)
+    {
+#ifdef __CUDA_ARCH__
+      const double2 two = __ldg(reinterpret_cast<const double2 *>(from));
+      return {two.x, two.y};
+#else
+      return {from[0], from[1]};
+#endif
+    }
+  };
+
+  // Call function(j, r = r_i - r_j, r^2, row) for each neighbor of particle i inside the support
+
+  template <class DeviceType, class Function>
+  KOKKOS_FORCEINLINE_FUNCTION void for_rows(const LoopDataKokkos<DeviceType> &data, int i,
+                                            const Function &function)
+  {
+    const Particle pi = data.particle[i];
+    const int jnum = data.numneigh(i);
+    for (int jj = 0; jj < jnum; jj++) {
+      const int j = data.neighbors(i, jj) & NEIGHMASK;
+      const NeighborRow row(data.particle[j]);
+      double r[3];
+      const double rsq = row.distance(pi, r);
+      if (rsq < data.par.support * data.par.support) function(j, r, rsq, row);
+    }
+  }
+
+  // Call function(j, r, r^2)
 
   template <class DeviceType, class Function>
   KOKKOS_FORCEINLINE_FUNCTION void for_neighbors(const LoopDataKokkos<DeviceType> &data, int i,
                                                  const Function &function)
   {
-    const Particle &pi = data.particle[i];
-    const int jnum = data.numneigh(i);
-    for (int jj = 0; jj < jnum; jj++) {
-      const int j = data.neighbors(i, jj) & NEIGHMASK;
-      const Particle &pj = data.particle[j];
-      const double r[3] = {pi.x[0] - pj.x[0], pi.x[1] - pj.x[1], pi.x[2] - pj.x[2]};
-      const double rsq = dot(r, r);
-      if (rsq < data.par.support * data.par.support) function(j, r, rsq);
-    }
+    for_rows(data, i, [&](int j, const double *r, double rsq, const NeighborRow &) {
+      function(j, r, rsq);
+    });
   }
 
   // Runs a loop with or without virial; loop.row(k, virial) adds the virial of a particle and returns the number of the
@@ -122,9 +183,9 @@ namespace SPHDissipation {
       const double support_inv = 1.0 / data.par.support;
       double c = data.par.self_weight * data.weight[i * data.each], cdot = 0.0;
 
-      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
-        const Particle &pj = data.particle[j];
-        const double u[3] = {pi.u[0] - pj.u[0], pi.u[1] - pj.u[1], pi.u[2] - pj.u[2]};
+      for_rows(data, i, [&](int j, const double *r, double rsq, const NeighborRow &row) {
+        double u[3];
+        row.velocity(pi, u);
         const double q = Kokkos::sqrt(rsq) * support_inv;
         const double weight = data.weight[j * data.each];
         c += weight * data.par.weight_norm * K::shape(q);
@@ -156,21 +217,22 @@ namespace SPHDissipation {
       const int jnum = data.numneigh(i);
       for (int jj = 0; jj < jnum; jj++) {
         const int j = data.neighbors(i, jj) & NEIGHMASK;
-        const Particle &pj = data.particle[j];
+        const NeighborRow row(data.particle[j]);
         PairState pair;
-        for (int d = 0; d < 3; d++) pair.r[d] = pi.x[d] - pj.x[d];
-        const double rsq = dot(pair.r, pair.r);
+        const double rsq = row.distance(pi, pair.r);
         if (rsq >= support_sq) continue;
-        for (int d = 0; d < 3; d++) pair.u[d] = pi.u[d] - pj.u[d];
+        row.velocity(pi, pair.u);
+        double vol_j, g_j;
+        row.volume_and_g(vol_j, g_j);
         const double slope = data.par.slope_norm * K::slope(square_root(rsq) * support_inv);
         pair.coeff = coeff_i[data.type[j * data.typed]].a;
         pair.approach = dot(pair.r, pair.u);
-        pair.vv = volumes_slope(rsq, pi.vol, pj.vol, slope);
+        pair.vv = volumes_slope(rsq, pi.vol, vol_j, slope);
         for (int c = 0; c < NCHANNEL; c++) pair.heat[c] = 0.0;
         if constexpr (Form::SPINS)
           for (int d = 0; d < 3; d++) pair.t[d] = pair.spin[d] = 0.0;
 
-        pair.central = pressing_term(pi.g, pj.g, slope) * weight_i * data.weight[j * data.each];
+        pair.central = pressing_term(pi.g, g_j, slope) * weight_i * data.weight[j * data.each];
         if constexpr (Form::CENTRAL)
           pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(rsq) + TINY);
         if constexpr (Form::BY_RATE) {
@@ -180,7 +242,7 @@ namespace SPHDissipation {
         Form::add_central(pair);
         if constexpr (VOLUME) {
           pair.central += volume_term(zeta_term_i, data.zeta_term[j], pair.vv);
-          divergence -= slope * pair.approach * pj.vol;
+          divergence -= slope * pair.approach * vol_j;
         }
         for (int d = 0; d < 3; d++) pair.f[d] = pair.central * pair.r[d];
         if constexpr (Form::SPINS) {

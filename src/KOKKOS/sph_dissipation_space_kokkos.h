@@ -15,7 +15,7 @@
 #define LMP_SPH_DISSIPATION_SPACE_KOKKOS_H
 
 #include "sph_dissipation_columns_kokkos.h"
-#include "sph_dissipation_masks_kokkos.h"
+#include "sph_dissipation_masks.h"
 #include "sph_dissipation_parameters.h"
 #include "sph_dissipation_space.h"
 

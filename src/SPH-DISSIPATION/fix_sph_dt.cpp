@@ -27,6 +27,7 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_keywords.h"
+#include "sph_dissipation_masks.h"
 #include "sph_dissipation_report.h"
 #include "sph_dissipation_steps.h"
 #include "sph_dissipation_table.h"
@@ -43,6 +44,11 @@ using namespace SPHDissipation;
 // Largest factor between a time step and the next one: the forces depend on the time step before
 
 static constexpr double GROWTH = 1.25;
+
+// Fields that the limits depend on
+
+static constexpr uint64_t READ = TYPE_MASK | MASK_MASK | RMASS_MASK | V_MASK | F_MASK |
+    SPH_RHO_MASK | ESPH_MASK | STATES_MASK | INERTIA_MASK;
 
 // Return a part of a time; UNLIMITED_STEP if the time is unlimited.
 
@@ -79,6 +85,7 @@ FixSPHDt::FixSPHDt(LAMMPS *lmp, int narg, char **arg) :
   size_vector = NLIMIT;
   extscalar = extvector = 0;
   global_freq = 1;
+  datamask_read = datamask_modify = EMPTY_MASK;    // fields are copied when the step is set
 }
 
 /* ---------------------------------------------------------------------- */
@@ -106,12 +113,14 @@ void FixSPHDt::init()
 
 void FixSPHDt::setup_pre_force(int /*vflag*/)
 {
+  fluid->get_from_device(ALL_MASK);
   std::vector<FixSPHBulk *> integrators;
   for (const auto &ifix : modify->get_fix_list())
     if (auto *integrator = dynamic_cast<FixSPHBulk *>(ifix)) integrators.push_back(integrator);
   for (const auto &integrator : integrators) integrator->set_masses();
   fluid->find_volumes();
   for (const auto &integrator : integrators) integrator->set_inertia();
+  fluid->give_to_device();
 
   limits[FORCE] = UNLIMITED_STEP;
   reset_step(allowed_step(fluid->stability->table()));
@@ -125,6 +134,7 @@ void FixSPHDt::setup_pre_force(int /*vflag*/)
 void FixSPHDt::setup(int /*vflag*/)
 {
   set_up = true;
+  fluid->get_from_device(READ);
   limits[FORCE] = part_of(part[FORCE], fluid->stability->fall_time());
   const CoeffTable table = fluid->stability->table();
   const double step = allowed_step(table);
@@ -137,6 +147,7 @@ void FixSPHDt::setup(int /*vflag*/)
 void FixSPHDt::end_of_step()
 {
   check_set_up(lmp, this, set_up);
+  fluid->get_from_device(READ);
   limits[FORCE] = part_of(part[FORCE], fluid->stability->fall_time());
   reset_step(std::min(allowed_step(fluid->stability->table()), GROWTH * update->dt));
 }

@@ -18,6 +18,7 @@
 #include "fix_sph_refine.h"
 
 #include "atom.h"
+#include "atom_masks.h"
 #include "comm.h"
 #include "domain.h"
 #include "error.h"
@@ -113,6 +114,7 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   global_freq = 1;
   extvector = 0;
   comm_forward = RefineItems::SIZE;
+  datamask_read = datamask_modify = EMPTY_MASK;    // particles are copied in the steps of a check
   grow_arrays(atom->nmax);
   atom->add_callback(Atom::GROW);
   atom->add_callback(Atom::RESTART);
@@ -318,6 +320,7 @@ void FixSPHRefine::post_integrate()
     if (dynamic_cast<FixSPHRefine *>(other)->event_step == update->ntimestep) postponed = true;
   if (postponed) return;
 
+  fluid->get_from_device(ALL_MASK);
   evaluate_target();
   not_fluid = fluid->not_fluid();
   bigint nfluid;
@@ -337,6 +340,7 @@ void FixSPHRefine::post_integrate()
     past[i][FAMILY] = family;
   });
   fluid->keep_densities();
+  fluid->give_to_device();
   event_step = next_reneighbor = update->ntimestep;
 }
 

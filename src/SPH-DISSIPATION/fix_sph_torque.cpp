@@ -27,6 +27,7 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_keywords.h"
+#include "sph_dissipation_masks.h"
 #include "sph_dissipation_value.h"
 #include "update.h"
 
@@ -54,6 +55,7 @@ FixSPHTorque::FixSPHTorque(LAMMPS *lmp, int narg, char **arg) :
   size_vector = 3;
   global_freq = 1;
   extscalar = extvector = 1;
+  set_masks();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -80,6 +82,7 @@ void FixSPHTorque::init()
   receiving_groups = 0;
   for (const auto &ifix : modify->get_fix_by_style("^sph/micropolar"))
     receiving_groups |= ifix->groupbit;
+  datamask_read = datamask_modify = ALL_MASK;    // for setup()
 }
 
 /* ---------------------------------------------------------------------- */
@@ -91,6 +94,18 @@ void FixSPHTorque::setup(int vflag)
   const double before = work;
   post_force(vflag);
   work = before;
+  datamask_modify = ALL_MASK;    // also the inertia
+}
+
+/* ----------------------------------------------------------------------
+   Set the fields that KOKKOS copies for post_force(); a variable may read any.
+------------------------------------------------------------------------- */
+
+void FixSPHTorque::set_masks()
+{
+  const bool any_variable = value[0].varies() || value[1].varies() || value[2].varies();
+  datamask_read = any_variable ? ALL_MASK : MASK_MASK | TORQUE_MASK | INERTIA_MASK | OMEGAEST_MASK;
+  datamask_modify = TORQUE_MASK;
 }
 
 /* ----------------------------------------------------------------------
@@ -156,6 +171,7 @@ void FixSPHTorque::post_force(int /*vflag*/)
     }
   }
   work += 0.5 * update->dt * (power_before + power);
+  set_masks();
 }
 
 /* ----------------------------------------------------------------------

@@ -57,6 +57,7 @@ class FixSPHTorque : public Fix {
   bool set_up = false;         // setup() has run since the fix was defined
 
   void check_receivers();
+  void set_masks();
 };
 
 }    // namespace LAMMPS_NS

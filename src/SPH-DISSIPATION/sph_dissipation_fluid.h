@@ -16,6 +16,7 @@
 
 #include "pointers.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -190,6 +191,12 @@ namespace SPHDissipation {
     void note_change() { changed = true; }
 
     bool is_set_up() const;    // init() has run since the last pair_style and pair_coeff
+
+    // For a fix that acts in few steps: with KOKKOS, copy these fields of the particles to the host; note that the host has
+    // changed the particles
+
+    virtual void get_from_device(uint64_t /*fields*/) const {}
+    virtual void give_to_device() const {}
 
     // particles and types
 

@@ -11,13 +11,15 @@
    See the README file in the top-level LAMMPS directory.
 ------------------------------------------------------------------------- */
 
-#ifndef LMP_SPH_DISSIPATION_MASKS_KOKKOS_H
-#define LMP_SPH_DISSIPATION_MASKS_KOKKOS_H
+#ifndef LMP_SPH_DISSIPATION_MASKS_H
+#define LMP_SPH_DISSIPATION_MASKS_H
 
 #include "atom_masks.h"
 
 // Bits of the package's own fields for sync() and modified() of class AtomKokkos, which passes them to the atom style: from
-// the highest bit down, while LAMMPS's atom_masks.h begins with the lowest.
+// the highest bit down, while LAMMPS's atom_masks.h begins with the lowest.  With KOKKOS, LAMMPS copies the fields in
+// datamask_read of a fix without suffix to the host before each call, and those in datamask_modify back: all fields, if the
+// fix does not say otherwise.
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
