@@ -37,6 +37,7 @@ static constexpr int NVALUES = 6;    // force and torque
 // Fields that the motion of a wall changes; the atom style ignores bits of fields that it does not have.
 
 static constexpr uint64_t MOTION = V_MASK | VEST_MASK | OMEGA_MASK;
+static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
 
 // Computes the vector from the point on the axis of a wall to its particles, as FixSPHWall::from_point()
 
@@ -93,21 +94,27 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup_pre_exchang
 {
   atomKK->sync(Host, ALL_MASK);
   FixSPHWall::setup_pre_exchange();
-  atomKK->modified(Host, MOTION);
+  atomKK->modified(Host, bodies ? MOTION | DESPH_BEFORE_MASK : MOTION);
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::setup(int vflag)
 {
-  atomKK->sync(Host, X_MASK | TYPE_MASK | MASK_MASK | RMASS_MASK);
+  atomKK->sync(Host, ALL_MASK);
   FixSPHWall::setup(vflag);
+  if (bodies) atomKK->modified(Host, ESPH_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate(int /*vflag*/)
 {
+  if (bodies) {
+    atomKK->sync(Host, ENERGY | DESPH_MASK | MASK_MASK);
+    FixSPHWall::initial_integrate(0);
+    return atomKK->modified(Host, ENERGY);
+  }
   check_set_up(lmp, this, checked);
   if (motion->has_variables()) atomKK->sync(Host, ALL_MASK);    // variables may read any particles
   const WallVelocity old = motion->velocity();
@@ -144,6 +151,35 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::initial_integrate
   atomKK->modified(execution_space, MOTION | (move ? X_MASK : EMPTY_MASK));
 }
 
+/* ----------------------------------------------------------------------
+   The motion of bodies is taken over on the host, where the fixes for rigid bodies have moved them.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_integrate()
+{
+  atomKK->sync(Host,
+               X_MASK | V_MASK | VEST_MASK | IMAGE_MASK | MASK_MASK | RMASS_MASK | MOLECULE_MASK |
+                   ESPH_MASK | (elastic ? F_MASK : EMPTY_MASK));
+  FixSPHWall::post_integrate();
+  atomKK->modified(Host, VEST_MASK | ESPH_MASK);
+}
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::final_integrate()
+{
+  atomKK->sync(Host, ENERGY | DESPH_MASK | MASK_MASK);
+  FixSPHWall::final_integrate();
+  atomKK->modified(Host, ENERGY);
+}
+
+template <class DeviceType> void FixSPHWallKokkos<DeviceType>::end_of_step()
+{
+  if (elastic) return;
+  atomKK->sync(Host,
+               X_MASK | V_MASK | IMAGE_MASK | MASK_MASK | RMASS_MASK | MOLECULE_MASK | ESPH_MASK);
+  FixSPHWall::end_of_step();
+  atomKK->modified(Host, ESPH_MASK);
+}
+
 /* ---------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHWallKokkos<DeviceType>::pre_force(int vflag)
@@ -164,20 +200,31 @@ template <class DeviceType>
 void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
     const BoundaryDataKokkos<DeviceType> &boundary, bool before)
 {
+  if (elastic) return;    // see FixSPHWall::move_surface()
   const WallVelocity now = motion->velocity();
-  const bool turns = turns_surface(before);
+  const bool turns = bodies ? before : turns_surface(before), is_body = bodies != nullptr;
   const WallStep step = motion->last_step();
+  if (bodies) {
+    renew(moving, "sph/wall:bodies", bodies->size());
+    const auto on_host = Kokkos::create_mirror_view(moving);
+    for (int k = 0; k < bodies->size(); k++) on_host(k) = (*bodies)[k];
+    Kokkos::deep_copy(moving, on_host);
+  }
   auto mask = atomKK->k_mask.template view<DeviceType>();
   const auto walls = boundary;
-  const int bit = groupbit;
+  const auto all = moving;
+  const int bit = groupbit, first = first_number;
   for_each<DeviceType>(
       "sph:wall_surface", walls.nall, KOKKOS_LAMBDA(int k) {
         if (!(mask(walls.particles(k)) & bit)) return;
         Surface &s = walls.surface(k);
         now.angular(s.omega);
+        const Bodies::Body *const body = is_body ? &all(walls.body(k) - first) : nullptr;
+        for (int d = 0; body && d < 3; d++) s.omega[d] = body->omega[d];
         if (!turns) return;
         double turned[3];
-        step.turn(s.normal, turned);
+        for (int d = 0; d < 3; d++)
+          turned[d] = inner_product(body ? body->rotation[d] : step.rotation[d], s.normal);
         for (int d = 0; d < 3; d++) s.normal[d] = turned[d];
       });
 }
@@ -198,6 +245,7 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
   const WallHeat kind = heat;
   const bool with_heat = data.par.conducts(), by_atom = heat_value->is_by_atom();
   const double value = heat_value->now();
+  const bool noisy = noise, is_body = bodies != nullptr;
   auto values = heat_values;
 
   atomKK->sync(execution_space, IMAGE_MASK);
@@ -206,13 +254,20 @@ void FixSPHWallKokkos<DeviceType>::set_boundary_kokkos(
         const int i = walls.particles(k);
         const BoundarySum &sum = walls.sum(k);
         if (!(rows.mask[i] & bit)) return;
+        if (is_body)
+          set_frozen(rows, i, walls.of_body(k), (walls.summed & bit) ? &sum : nullptr,
+                     wall.gravity);
         double *const w = spin ? spin[i].w : nullptr;
         if (w) now.angular(w);
-        if (!(sum.weight > 0.0)) return;
-        double r[3], acceleration[3];
-        from_point(i, now.point, r);
-        now.acceleration_at(r, acceleration);
-        extend_fluid(rows, i, wall, walls.surface(k), sum, acceleration, w);
+        if (!is_body && sum.weight > 0.0) {
+          double r[3], acceleration[3];
+          from_point(i, now.point, r);
+          now.acceleration_at(r, acceleration);
+          if (noisy)
+            rest_at_surface(rows, i, wall, walls.surface(k), acceleration);
+          else
+            extend_fluid(rows, i, wall, walls.surface(k), sum, acceleration, w);
+        }
         if (with_heat && walls.heat_sum(k).weight > 0.0)
           rows.flow[HEAT_FLOW][i] = wall_conductor(
               kind, by_atom ? values(i) : value, rows.particle[i].vol,
@@ -285,6 +340,7 @@ template <class DeviceType> void FixSPHWallKokkos<DeviceType>::post_force(int /*
       sums);
   std::copy_n(sums.v, NVALUES, total);
   total_summed = false;
+  if (!bodies) add_contact();
   book_heat();
   if constexpr (ON_HOST) return k_array.template modify<DeviceType>();
 
@@ -420,7 +476,8 @@ void FixSPHWallKokkos<DeviceType>::unpack_exchange_kokkos(DAT::tdual_double_2d_l
 
 template <class DeviceType> double FixSPHWallKokkos<DeviceType>::memory_usage()
 {
-  return FixSPHWall::memory_usage() + bytes_of(particles, numbers, packed, values, heat_values);
+  return FixSPHWall::memory_usage() +
+      bytes_of(particles, numbers, packed, values, heat_values, moving);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -24,6 +24,7 @@ FixStyle(sph/wall/kk/host,FixSPHWallKokkos<LMPHostType>);
 
 #include "fix_sph_wall.h"
 #include "kokkos_base.h"
+#include "sph_dissipation_bodies.h"
 #include "sph_dissipation_boundary_kokkos.h"
 
 namespace LAMMPS_NS {
@@ -42,6 +43,9 @@ class FixSPHWallKokkos :
   void setup_pre_exchange() override;
   void setup(int) override;
   void initial_integrate(int) override;
+  void post_integrate() override;
+  void final_integrate() override;
+  void end_of_step() override;
   void pre_force(int) override;
   void post_force(int) override;
   void min_post_force(int) override;
@@ -69,6 +73,7 @@ class FixSPHWallKokkos :
   Kokkos::DualView<double *[6], Kokkos::LayoutRight, LMPDeviceType> k_array;    // array_atom
   Kokkos::View<int *, DeviceType> particles;    // owned wall particles, since the neighbor list
   int nparticles;
+  Kokkos::View<SPHDissipation::Bodies::Body *, DeviceType> moving;    // the bodies
   // on a GPU: values of these particles that the host gets in each step
   static constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
   Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> packed;

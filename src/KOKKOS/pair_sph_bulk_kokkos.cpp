@@ -74,7 +74,7 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
   if (update->whichflag == 2) return "a minimization";
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);
-    if (one && choice.thermal) return "keyword temp";
+    if (one && one->contact()) return fmt::format("fix {} contact", ifix->style);
     if ((one && !dynamic_cast<BoundaryKokkos<DeviceType> *>(ifix)) ||
         dynamic_cast<OpenZone *>(ifix))
       return fmt::format("fix {}", ifix->style);

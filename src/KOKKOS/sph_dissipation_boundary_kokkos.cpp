@@ -41,6 +41,9 @@ void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, int 
         boundaries.push_back(dynamic_cast<BoundaryKokkos<DeviceType> *>(one));
     }
 
+    const int bodies = stage.bits_of_bodies();
+    const bool bodies_begin = data.par.continuity && update->setupflag;
+    boundary.summed = bodies_begin ? bits : bits & ~bodies;
     const bool before = (!found && surface_step != update->ntimestep);
     surface_step = update->ntimestep;
     for (auto *one : boundaries) one->move_surface_kokkos(boundary, before);
@@ -48,6 +51,23 @@ void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, int 
     check<K>(data);
   });
   for (auto *one : boundaries) one->set_boundary_kokkos(boundary, data);
+  if (boundary.symmetric) end_friction(data);
+}
+
+/* ----------------------------------------------------------------------
+   Turn off the friction of pass 2 where it is symmetric, see BoundaryStage::extend().
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+void BoundaryStageKokkos<DeviceType>::end_friction(const LoopDataKokkos<DeviceType> &data)
+{
+  const ParticleRows rows = data;
+  const auto walls = boundary;
+  for_each<DeviceType>(
+      "sph:no_friction", walls.nowned, KOKKOS_LAMBDA(int k) {
+        const int i = walls.particles(k);
+        if (rows.mask[i] & walls.symmetric) rows.particle[i].vol = 0.0;
+      });
 }
 
 /* ---------------------------------------------------------------------- */
@@ -56,6 +76,7 @@ template <class DeviceType>
 void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<DeviceType> &data)
 {
   bits = stage.bits();
+  boundary.symmetric = stage.bits_of_symmetric_friction();
   const int nlocal = atom->nlocal, nall = nlocal + atom->nghost, some = bits;
   const ParticleRows fluid = data;
   auto all_of = [&](int n) {
@@ -76,13 +97,14 @@ void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<Device
   boundary.excess = {};
   boundary.excess = decltype(boundary.excess)("sph:boundary_excess", nall);
 
-  const bool repels = fluid.par.continuity;
+  const bool repels = fluid.par.continuity || fluid.par.thermal;
   const double contact_norm = ContactKernel::norm(fluid.par.dim);
   boundary.contact = {};
-  boundary.occupied = {};
+  boundary.occupied = boundary.energy = {};
   if (repels) {
     renew(boundary.contact, "sph:boundary_contact", boundary.nall);
     boundary.occupied = decltype(boundary.occupied)("sph:boundary_occupied", nall);
+    boundary.energy = decltype(boundary.energy)("sph:boundary_energy", nlocal);
   }
 
   const auto walls = boundary;
@@ -157,7 +179,10 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
 
   auto *const atomKK = (AtomKokkos *) atom;
   atomKK->modified(pair->execution_space, VFRAC_MASK);
-  atomKK->sync(Host, X_MASK | MASK_MASK | VFRAC_MASK);
+  const bool bodies = stage.has_bodies();
+  const uint64_t shapes = (stage.bits_of_elastic_bodies() && !data.par.continuity) ? OFFSET_MASK
+                                                                                   : EMPTY_MASK;
+  atomKK->sync(Host, X_MASK | MASK_MASK | VFRAC_MASK | MOLECULE_MASK | shapes);
   const ExecutionSpace space = pair->execution_space;
   pair->execution_space = Host;    // communicate on the host
   const Surface *const surface =
@@ -169,10 +194,20 @@ void BoundaryStageKokkos<DeviceType>::find_surface(const LoopDataKokkos<DeviceTy
       Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), boundary.particles);
   for (int k = 0; k < boundary.nall; k++) h_surface(k) = surface[h_particles(k)];
   Kokkos::deep_copy(boundary.surface, h_surface);
+  if (!bodies) return;
+  atomKK->modified(Host, shapes);
+  renew(boundary.body, "sph:boundary_body", boundary.nall);
+  renew(boundary.of_body, "sph:boundary_of_body", boundary.nowned);
+  const auto body = Kokkos::create_mirror_view(boundary.body);
+  const auto of_body = Kokkos::create_mirror_view(boundary.of_body);
+  for (int k = 0; k < boundary.nall; k++) body(k) = stage.body(h_particles(k));
+  for (int k = 0; k < boundary.nowned; k++) of_body(k) = stage.density_of_body(h_particles(k));
+  Kokkos::deep_copy(boundary.body, body);
+  Kokkos::deep_copy(boundary.of_body, of_body);
 }
 
 /* ----------------------------------------------------------------------
-   Set the excess of all boundary particles: on the device, no boundary has symmetric friction.
+   Set the excess of the boundary particles without symmetric friction.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
@@ -187,6 +222,7 @@ void BoundaryStageKokkos<DeviceType>::set_excess(LoopDataKokkos<DeviceType> &dat
       "sph:boundary_excess", walls.nall, KOKKOS_LAMBDA(int k) {
         const int i = walls.particles(k);
         walls.excess(i).crosses = 1.0;
+        if (loop.mask[i] & walls.symmetric) return;
         SPHDissipation::set_excess(walls.excess(i), loop.particle[i], &vest(i, 0),
                                    loop.spin ? loop.spin[i].w : nullptr, walls.surface(k));
       });
@@ -208,6 +244,7 @@ void BoundaryStageKokkos<DeviceType>::sum_fluid(const LoopDataKokkos<DeviceType>
   for_each<DeviceType>(
       "sph:boundary_sum", walls.nowned, KOKKOS_LAMBDA(int k) {
         const int i = walls.particles(k);
+        if (!(loop.mask[i] & walls.summed) && !with_heat) return;
         const Particle w = loop.particle[i];
         const Surface s = walls.surface(k);
         BoundarySum total = {};
@@ -246,6 +283,28 @@ void BoundaryStageKokkos<DeviceType>::add_surface_heat(const LoopDataKokkos<Devi
 }
 
 /* ----------------------------------------------------------------------
+   Return whether particle i is inside of one body, or of walls, alone, see BoundaryStage::is_inside().
+------------------------------------------------------------------------- */
+
+template <class K, class DeviceType>
+static KOKKOS_INLINE_FUNCTION bool is_inside(const LoopDataKokkos<DeviceType> &loop,
+                                             const BoundaryDataKokkos<DeviceType> &walls, int i)
+{
+  bool inside = false;
+  for_neighbors(loop, i, [&](int j, const double *, double) {
+    if (inside || walls.number(j) < 0) return;
+    double part = 0.0;
+    for_neighbors(loop, i, [&](int k, const double *, double rsq) {
+      const int wall = walls.number(k);
+      if (wall >= 0 && walls.body(wall) == walls.body(walls.number(j)))
+        part += part_filled<K>(walls.near(wall), Kokkos::sqrt(rsq));
+    });
+    inside = part > INSIDE_WALL;
+  });
+  return inside;
+}
+
+/* ----------------------------------------------------------------------
    Find the parts of the near and contact supports of fluid particles that boundary particles fill; stop the run at the first
    particle inside a wall.
 ------------------------------------------------------------------------- */
@@ -256,7 +315,7 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
 {
   const auto loop = data;
   const auto walls = boundary;
-  const bool repels = loop.par.continuity;
+  const bool repels = walls.occupied.extent(0), bodies = stage.has_bodies();
   int first;
   Kokkos::parallel_reduce(
       "sph:boundary_check", Range(0, walls.nrows),
@@ -271,7 +330,8 @@ void BoundaryStageKokkos<DeviceType>::check(const LoopDataKokkos<DeviceType> &da
           if (repels) touched += part_filled<ContactKernel>(walls.contact(wall), distance);
         });
         if (repels) walls.occupied(i) = touched;
-        if (filled > INSIDE_WALL && i < smallest) smallest = i;
+        if (filled > INSIDE_WALL && i < smallest && (!bodies || is_inside<K>(loop, walls, i)))
+          smallest = i;
       },
       Kokkos::Min<int>(first));
   if (first >= atom->nlocal) return;
@@ -285,7 +345,7 @@ template <class DeviceType> double BoundaryStageKokkos<DeviceType>::memory_usage
 {
   return bytes_of(boundary.number, boundary.rows, boundary.particles, boundary.surface,
                   boundary.near, boundary.sum, boundary.excess, boundary.contact, boundary.occupied,
-                  boundary.heat_sum);
+                  boundary.energy, boundary.body, boundary.of_body, boundary.heat_sum);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -331,6 +331,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
        }},
       {"noise", call(&Own::set_noise)},
       {"pairs", call(&Own::sum_forces)},
+      {"wall friction", call(&Own::add_wall_friction)},
       {"tension", call(&Own::sum_tension)},
       {"flows", call(&Own::sum_flows)},
       {"diffusion", call(&Own::evaluate_diffusion)},
@@ -411,7 +412,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary(StepData 
   if (space.data->spin) fields.push_back(field(space.data->spin, space.data->spin->w, 3));
   FlowRow *const heat = space.data->flow[HEAT_FLOW];
   if (boundary->conducts()) fields.push_back(field(heat, &heat->vol, 4));
-  if (space.data->par.continuity)
+  if (boundary_device->particles().occupied.extent(0))
     fields.push_back({boundary_device->particles().occupied.data(), 1, 1});
   space.forward(fields);
   boundary_device->set_excess(*space.data);
@@ -452,26 +453,25 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_noise(StepData &st
                  on_device::RandomPressureKokkos{
                      space.rows(), on_device::NoiseStep(numbers),
                      on_device::NoiseStep::keys_of(numbers, NoiseChannel::PRESSURE), noise_factor,
-                     atomKK->k_tag.template view<DeviceType>().data()});
+                     atomKK->k_tag.template view<DeviceType>().data(), boundary->bits()});
 }
 
 /* ----------------------------------------------------------------------
-   Add random forces and torques of the pairs, and of the drags of single particles.
+   Add random forces and torques of n rows of pairs.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
-template <class K, class Form>
-void FluidKokkos<DeviceType>::run_noise(const StepData &step)
+template <class K, class Form, class Pairs>
+void FluidKokkos<DeviceType>::run_noise(const StepData &step, int n, const Pairs &pairs)
 {
   const NoiseData &numbers = noise->numbers_of_pairs();
   const tagint *const tag = atomKK->k_tag.template view<DeviceType>().data();
   const on_device::NoiseStep now(numbers);
-  const int n = pair->list->inum;
   const auto run = [&](auto across) {
     space.run_loop("sph:noise", n,
                    on_device::NoiseLoopKokkos<DeviceType, K, decltype(across)::value, Form::SPINS,
-                                              Form::BY_SQUARE, Form::BY_DISTANCE>{
-                       *space.data, now, noise_coeff.data(), tag},
+                                              Form::BY_SQUARE, Form::BY_DISTANCE, Pairs>{
+                       *space.data, pairs, now, noise_coeff.data(), tag},
                    step.tally);
   };
   if constexpr (Form::VECTOR && !Form::BY_RATE) {
@@ -499,8 +499,14 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &s
       else
         space.run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*space.data},
                        step.tally);
-      if (step.noise.pairs.data) run_noise<K, Form>(step);
+      if (step.noise.pairs.data)
+        run_noise<K, Form>(step, n, on_device::AllPairsKokkos<DeviceType>());
     });
+    if (boundary_device->particles().occupied.extent(0))
+      space.run_loop("sph:repulsion", boundary_device->particles().size(),
+                     RepulsionKokkos<DeviceType, decltype(kernel)>{
+                         *space.data, boundary_device->particles(), boundary->thermal_stiffness()},
+                     step.tally);
   });
   if (model->choice.thermal && space.data->par.drag) {
     const NoiseData &numbers = noise->numbers_of_pairs();
@@ -510,11 +516,31 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &s
                        on_device::NoiseStep::keys_of(numbers, NoiseChannel::DRAG), noise_factor,
                        atomKK->k_tag.template view<DeviceType>().data()});
   }
-  if (!boundary->empty() && space.data->par.continuity) {
-    const auto &walls = boundary_device->particles();
-    space.run_loop("sph:repulsion", walls.size(), RepulsionKokkos<DeviceType>{*space.data, walls},
-                   step.tally);
-  }
+}
+
+/* ----------------------------------------------------------------------
+   Add the symmetric friction of boundaries and its noise; there are no viscosities by rate.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::add_wall_friction(StepData &step)
+{
+  with_kernel(model->choice.kernel, [&](auto kernel) {
+    with_form(space.data->par.terms(), [&](auto form) {
+      run_wall_friction<decltype(kernel), decltype(form)>(step);
+    });
+  });
+}
+
+template <class DeviceType>
+template <class K, class Form>
+void FluidKokkos<DeviceType>::run_wall_friction(const StepData &step)
+{
+  const SurfacePairsKokkos<DeviceType> pairs = {boundary_device->particles()};
+  const int n = pairs.boundary.size();
+  if constexpr (!Form::BY_RATE && (Form::CENTRAL || Form::VECTOR))
+    space.run_loop("sph:wall_friction", n,
+                   SurfaceFrictionKokkos<DeviceType, K, Form>{*space.data, pairs}, step.tally);
+  if (step.noise.pairs.data) run_noise<K, Form>(step, n, pairs);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -590,17 +616,12 @@ void FluidKokkos<DeviceType>::run_diffusion()
 template <class DeviceType> double FluidKokkos<DeviceType>::wall_energy(double *each_atom) const
 {
   if (!on_device) return Fluid::wall_energy(each_atom);
-  if (!model->choice.continuity) return 0.0;
-  const auto occupied =
-      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->particles().occupied);
-  double total = 0.0;
-  for (int i = 0; i < atom->nlocal; i++) {
-    if (is_boundary(i)) continue;
-    const Repulsion repulsion =
-        repulsion_of_surface(atom->rmass[i], model->coeffs[atom->type[i]].eos.c0);
-    const double energy = energy_of_repulsion(repulsion, beyond_surface(occupied(i)));
-    total += energy;
-    if (each_atom) each_atom[i] += energy;
+  double total = boundary->energy_of_bodies(each_atom);
+  const auto energy =
+      Kokkos::create_mirror_view_and_copy(LMPHostType(), boundary_device->particles().energy);
+  for (int i = 0; i < static_cast<int>(energy.extent(0)); i++) {
+    total += energy(i);
+    if (each_atom) each_atom[i] += energy(i);
   }
   return total;
 }

@@ -65,6 +65,7 @@ namespace SPHDissipation {
     void set_boundary(StepData &);
     void set_noise(StepData &);
     void sum_forces(StepData &);
+    void add_wall_friction(StepData &);
     void sum_tension(StepData &);
     void sum_flows(StepData &);
     void evaluate_diffusion(StepData &);
@@ -112,7 +113,9 @@ namespace SPHDissipation {
     double tension_energy(double *, int groupbit) const override;
     const double *bound_device() const;    // see Fluid::bound()
     template <class K, int DIM> void run_diffusion();
-    template <class K, class Form> void run_noise(const StepData &);
+    template <class K, class Form> void run_wall_friction(const StepData &);
+    template <class K, class Form, class Pairs>
+    void run_noise(const StepData &, int n, const Pairs &);
   };
 
 }    // namespace SPHDissipation

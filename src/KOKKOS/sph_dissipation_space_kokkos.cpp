@@ -23,6 +23,7 @@
 #include "sph_dissipation_sums_kokkos.h"
 
 #include <algorithm>
+#include <utility>
 
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
@@ -161,6 +162,8 @@ template <class DeviceType> void DeviceSpace<DeviceType>::set_particles(int not_
   data->vol_heat = avec.k_vol_heat.template view<DeviceType>().data();
   data->vol_support = avec.k_vol_support.template view<DeviceType>().data();
   data->not_fluid = not_fluid;
+  data->body_bits = engine.body_bits;
+  data->keeps_bodies = std::exchange(engine.keeps_bodies, false);
   data->f = atomKK->k_f.template view<DeviceType>();
 
   auto x = atomKK->k_x.template view<DeviceType>();

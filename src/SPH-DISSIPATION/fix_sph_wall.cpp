@@ -524,7 +524,6 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
     return;
   }
 
-  const FluidModel &model = *find_fluid(force)->model;
   const WallVelocity now = motion->velocity();
   stage.for_each(atom->nlocal, [&](int i) {
     if (!(atom->mask[i] & groupbit)) return;
@@ -537,15 +536,9 @@ void FixSPHWall::set_boundary(BoundaryStage &stage, const Surface *surfaces,
     from_point(i, now, r);
     now.acceleration_at(r, acceleration);
 
-    // With thermal noise, the wall has its own motion, volume, and friction, so that the friction matrix is symmetric.  Its
-    // pressure does not depend on the fluid, so that the force has an energy
-
-    if (noise) {
-      const EosParams &eos = model.coeffs[atom->type[i]].eos;
-      stage.set_state(
-          i, eos.rho0,
-          surface_pressure(surfaces[i], eos.rho0, eos.pb, condition->gravity, acceleration));
-    } else
+    if (noise)
+      stage.rest_at_surface(i, *condition, surfaces[i], acceleration);
+    else
       stage.extend_fluid(i, *condition, surfaces[i], sum, acceleration);
   });
 }

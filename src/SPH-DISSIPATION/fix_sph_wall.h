@@ -93,6 +93,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   bool move = true;
   std::unique_ptr<SPHDissipation::Bodies> bodies;     // which the fluid moves; nullptr: a wall
   bool elastic = false;                               // bodies whose particles move one by one
+  int first_number = 0;                               // of the first body in BoundaryStage
   std::unique_ptr<SPHDissipation::ContactLaw> law;    // of the contact of bodies; nullptr: none
   bool noise = false;                                 // the fluid has thermal noise
   bool checked = false;    // setup() has run, and has checked the thickness
@@ -109,6 +110,7 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
 
   bool turns_surface(bool before) const;
   void book_heat();
+  void add_contact();
 
  private:
   // Heat that this rank's part of the wall gives to the fluid; on rank 0 also the heat of a restart file
@@ -119,8 +121,6 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   // bodies that the fluid moves: one for each molecule; keyword body is given
 
   bool by_molecule, split_given = false;
-  int first_number = 0;    // of the first body in BoundaryStage
-
   void read_bodies(const std::string &others);
   void check_bodies(const SPHDissipation::Fluid *) const;
   bool check_movers() const;
@@ -132,7 +132,6 @@ class FixSPHWall : public Fix, public SPHDissipation::Boundary {
   void set_acting();
   void note_forces();
   void add_rest_of_heat();
-  void add_contact();
 
   bool is_wrong(double value) const;    // true: keyword heat cannot have this value
   void check_heat() const;

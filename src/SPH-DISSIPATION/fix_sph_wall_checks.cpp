@@ -123,8 +123,6 @@ void FixSPHWall::read_bodies(const std::string &others)
 {
   if (!others.empty())
     error->all(FLERR, "Fix {} move {} cannot be used with {}", style, kind(), others);
-  if (utils::strmatch(style, "/kk"))
-    error->all(FLERR, "Fix {} move {} requires the style without suffix, sph/wall", style, kind());
   if (by_molecule && !atom->molecule_flag)
     error->all(FLERR, "Fix {} body molecule requires molecule IDs, fix property/atom mol", style);
 }
@@ -174,7 +172,8 @@ void FixSPHWall::check_integrator() const
   std::vector<int> movers(atom->nlocal, 0);
   for (const auto &other : modify->get_fix_list()) {
     if (other == this || !(other->time_integrate || dynamic_cast<FixSPHWall *>(other))) continue;
-    const bool nve = !strcmp(other->style, "nve") || !strcmp(other->style, "nve/omp");
+    const bool nve = !strcmp(other->style, "nve") || !strcmp(other->style, "nve/omp") ||
+        utils::strmatch(other->style, "^nve/kk");
     const auto shared = first_particle(lmp, [&](int i) {
       const bool both = (atom->mask[i] & groupbit) && (atom->mask[i] & other->groupbit);
       if (both && nve) movers[i]++;

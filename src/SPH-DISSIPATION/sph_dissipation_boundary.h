@@ -82,7 +82,7 @@ namespace SPHDissipation {
     virtual void move_surface(BoundaryStage &, Surface *, bool before) = 0;
 
     // Set the values of owned particles of the fix in the pair forces, from the sums over the fluid around them, by
-    // BoundaryStage::set_state() or extend_fluid() and, if there are spins, spin()
+    // BoundaryStage::rest_at_surface() or extend_fluid() and, if there are spins, spin()
 
     virtual void set_boundary(BoundaryStage &, const Surface *, const BoundarySum *) = 0;
 

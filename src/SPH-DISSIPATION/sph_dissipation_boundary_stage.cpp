@@ -84,10 +84,10 @@ void BoundaryStage::set_reference_volume()
 
 /* ---------------------------------------------------------------------- */
 
-void BoundaryStage::set_state(int i, double rho, double pressure)
+void BoundaryStage::rest_at_surface(int i, const WallCondition &condition,
+                                    const Surface &surface_of, const double *acceleration)
 {
-  engine.rows().set_state(i, rho, pressure);
-  engine.zeta_term[i] = 0.0;
+  SPHDissipation::rest_at_surface(engine.rows(), i, condition, surface_of, acceleration);
 }
 
 void BoundaryStage::extend_fluid(int i, const WallCondition &condition, const Surface &surface_of,
@@ -158,6 +158,18 @@ void BoundaryStage::find_bodies()
   exchange.forward({{body_of.data(), 1, 1}});
 }
 
+/* ---------------------------------------------------------------------- */
+
+double BoundaryStage::resting_volume(int i) const
+{
+  return atom->rmass[i] / engine.parameters().type[atom->type[i]].eos.rho0;
+}
+
+double BoundaryStage::weight(int i) const
+{
+  return (engine.constants().volume == Volume::MASS) ? resting_volume(i) : 1.0;
+}
+
 /* ----------------------------------------------------------------------
    Sum the number density of each body particle over the other particles of its body: neighbor lists do not have these pairs.
    The sums are constant until the next neighbor list, those of an elastic body longer.
@@ -178,7 +190,7 @@ void BoundaryStage::sum_bodies()
       if (!(atom->mask[i] & body_bits)) return;
       cells.near(atom->x[i], par.support, [&](int j, const double *, double rsq) {
         if (j == i || body_of[j] != body_of[i]) return;
-        own_numden[i] += engine.weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
+        own_numden[i] += weight(j) * par.weight_norm * kernel.shape(sqrt(rsq) / par.support);
       });
     });
     return 0;
@@ -197,19 +209,10 @@ void BoundaryStage::keep_first_shape()
   double *const filled_part = Fields::of(atom)->vol_support;
   for (int i = 0; i < atom->nlocal; i++) {
     if (!(atom->mask[i] & elastic_bits)) continue;
-    const double own = engine.weight(i) * own_term();
-    const double whole = par.type[atom->type[i]].eos.rho0 * engine.weight(i) / atom->rmass[i];
+    const double own = weight(i) * par.self_weight, whole = weight(i) / resting_volume(i);
     if (!(filled_part[i] > 0.0)) filled_part[i] = (own_numden[i] + own) / whole;
     own_numden[i] = filled_part[i] * whole - own;
   }
-}
-
-double BoundaryStage::own_term() const
-{
-  const Parameters &par = engine.parameters();
-  return par.weight_norm * with_kernel(par.kernel, [](auto k) {
-           return k.shape(0.0);
-         });
 }
 
 /* ----------------------------------------------------------------------
@@ -232,12 +235,12 @@ void BoundaryStage::warn_of_contact()
     if (one->contact()) with_contact |= one->boundary_bit();
   for (int i = 0; i < atom->nlocal && !touching; i++) {
     if (!(atom->mask[i] & body_bits)) continue;
-    const double volume = engine.rows().reference_volume(i);
     const double close = (atom->mask[i] & elastic_bits) ? ELASTIC : CLOSE;
-    cells.near(atom->x[i], close * spacing_of(par.dim, volume), [&](int j, const double *, double) {
-      if (body_of[j] != body_of[i] && !((atom->mask[i] | atom->mask[j]) & with_contact))
-        touching = 1;
-    });
+    cells.near(atom->x[i], close * spacing_of(par.dim, resting_volume(i)),
+               [&](int j, const double *, double) {
+                 if (body_of[j] != body_of[i] && !((atom->mask[i] | atom->mask[j]) & with_contact))
+                   touching = 1;
+               });
   }
   warned_of_contact = over_all(world, touching, MPI_MAX);
   if (warned_of_contact && comm->me == 0)
@@ -266,47 +269,8 @@ bool BoundaryStage::is_body(int i) const
 
 void BoundaryStage::set_frozen(int i, const double *gravity)
 {
-  const ParticleRows &rows = engine.rows();
-  double c = engine.density[i].c;    // with an offset, c includes the other particles of the body
-  if (!rows.par.continuity)
-    c += own_numden[i];
-  else if (!(rows.rho_sum[i] < 0.0))
-    c = begin_frozen(i, gravity);
-  const double weight = engine.weight(i), vol = weight / c;
-  const double rho = atom->rmass[i] / vol;
-  const double p = pressure(rows.par.eos, rows.types[atom->type[i]].eos, rho, 0.0);
-  engine.particle[i].g = pressure_term(p, vol, weight);
-  engine.zeta_term[i] = 0.0;
-  atom->rho[i] = rho;
-  atom->desph[i] += p * vol * engine.density[i].cdot * (vol / weight);
-}
-
-/* ----------------------------------------------------------------------
-   Return the first c of a body particle with density continuity, and set its rho_sum.  If fluid fills the rest of the
-   support, c gives the pressure of this fluid at rest.  If the rest is empty, c belongs to the body alone: water that comes
-   later does not compress this particle.
-------------------------------------------------------------------------- */
-
-double BoundaryStage::begin_frozen(int i, const double *gravity)
-{
-  constexpr double EMPTY = 0.8, FULL = 1.0;    // filled part of the support without the body
-  constexpr double REST[3] = {0.0, 0.0, 0.0};
-  const Parameters &par = engine.parameters();
-  const EosParams &eos = par.type[atom->type[i]].eos;
-  const double mass = atom->rmass[i] / engine.weight(i);
-  engine.rows().rho_sum[i] = -mass * engine.density[i].c;
-  const double c = engine.density[i].c + own_numden[i];
-  if (!(sum_bits & body_bits) || !(sum[i].weight > 0.0)) return c;
-
-  BoundarySum fluid = sum[i];
-  fluid.pressure -= fluid.zeta_term;
-  double p = wall_pressure(fluid, gravity, REST);
-  if (!par.tension) p = std::max(p, 0.0);
-  const double own = atom->rmass[i] / eos.rho0 * (own_numden[i] / engine.weight(i) + own_term());
-  const double wet = fluid.weight / (1.0 - own);
-  const double part = std::min(std::max((wet - EMPTY) / (FULL - EMPTY), 0.0), 1.0);
-  const double rho = density_at(par.eos, eos, p, 0.0);
-  return (rho > 0.0) ? c + part * (rho / mass - c) : c;
+  SPHDissipation::set_frozen(engine.rows(), i, own_numden[i],
+                             (sum_bits & body_bits) ? &sum[i] : nullptr, gravity);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -426,11 +390,16 @@ void BoundaryStage::add_surface_heat(std::vector<double> &flow)
 
 /* ---------------------------------------------------------------------- */
 
+double BoundaryStage::thermal_stiffness() const
+{
+  const Parameters &par = engine.parameters();
+  return par.thermal ? 2.0 * HARDNESS * force->boltz * par.temperature : 0.0;
+}
+
 Repulsion BoundaryStage::repulsion_of(int i) const
 {
   const Parameters &par = engine.parameters();
-  if (par.thermal && !par.own_temperatures)
-    return {2.0 * HARDNESS * force->boltz * par.temperature, 0.0};
+  if (par.thermal && !par.own_temperatures) return {thermal_stiffness(), 0.0};
   const double mass = atom->rmass[i], c0 = par.type[atom->type[i]].eos.c0;
   if (par.thermal) return {2.0 * HARDNESS_OF_SOUND * mass * c0 * c0, 0.0};
   return repulsion_of_surface(mass, c0);
@@ -654,7 +623,7 @@ void BoundaryStage::find_energies_at_rest(NeighList *list)
 
 /* ---------------------------------------------------------------------- */
 
-double BoundaryStage::energy(double *each_atom) const
+double BoundaryStage::energy_of_bodies(double *each_atom) const
 {
   double total = 0.0;
   const Parameters &par = engine.parameters();
@@ -665,6 +634,12 @@ double BoundaryStage::energy(double *each_atom) const
     total += energy;
     if (each_atom) each_atom[i] += energy;
   }
+  return total;
+}
+
+double BoundaryStage::energy(double *each_atom) const
+{
+  double total = energy_of_bodies(each_atom);
   if (!has_energy()) return total;
   add_energies(nforce(), [&](int i, double energy) {
     total += energy;
@@ -932,8 +907,11 @@ void BoundaryStage::stop_for(int i) const
 
 const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
+  find_bodies();
   surface.has_flux = conducts();
-  surface.run(group_bits, sides);
+  surface.run(group_bits, sides, body_of);
+  sum_bodies();
+  warn_of_contact();
   return surface.surface.data();
 }
 

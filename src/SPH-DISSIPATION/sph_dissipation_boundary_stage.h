@@ -43,6 +43,7 @@ namespace SPHDissipation {
     bool empty() const { return boundaries.empty(); }
     int bits() const { return group_bits; }    // of the groups of all boundaries
     bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any boundary
+    int bits_of_symmetric_friction() const { return symmetric_bits; }
     bool is_body(int i) const;    // i belongs to a body that the fluid moves
     bool has_bodies() const { return body_bits != 0; }
     bool has_contact() const;    // any body has contact forces
@@ -100,12 +101,13 @@ namespace SPHDissipation {
     // Add the energy of walls to the energies of particles (nullptr: to none); return its sum on this processor
 
     double energy(double *each_atom) const;
+    double energy_of_bodies(double *each_atom) const;    // of their equation of state alone
 
-    // Called by Boundary::set_boundary() for an owned particle of the boundary.  set_state(): set volume and P/c^2 from
-    // density and pressure without bulk term.  extend_fluid(): set all values from the sums over the fluid around.  spin():
-    // return the spin in the pair forces, to be set before; nullptr without spins
+    // Called by Boundary::set_boundary() for an owned particle of the boundary.  rest_at_surface(), extend_fluid(): the
+    // functions of sph_dissipation_wall_terms.h.  spin(): return the spin in the pair forces, to be set before; nullptr
+    // without spins
 
-    void set_state(int i, double rho, double pressure);
+    void rest_at_surface(int i, const WallCondition &, const Surface &, const double *acceleration);
     void extend_fluid(int i, const WallCondition &, const Surface &, const BoundarySum &,
                       const double *acceleration);
     double *spin(int i) { return engine.has_spin() ? engine.spin[i].w : nullptr; }
@@ -117,7 +119,7 @@ namespace SPHDissipation {
 
     // Return the number of the body of an owned or ghost particle, see Boundary::number_bodies()
 
-    int body(int i) const { return static_cast<int>(body_of[i]); }
+    int body(int i) const { return body_of.empty() ? 0 : static_cast<int>(body_of[i]); }
 
     // Call function(i) for each i < n, shared among the threads
     template <class Function> void for_each(int n, const Function &function)
@@ -135,11 +137,15 @@ namespace SPHDissipation {
 
     void add_surface_heat(std::vector<double> &flow);
 
-    // Parts of run() for the sums on a device.  find_surface(): with a new neighbor list, return the surfaces of owned and
-    // ghost atoms from sides, the vectors toward the fluid of owned boundary particles.  stop_for(): particle i is in a wall
+    // Parts of run() for the sums on a device.  find_surface(): with a new neighbor list, find the bodies; return the
+    // surfaces of owned and ghost atoms from sides, the vectors toward the fluid of owned boundary particles.
+    // density_of_body(): number density of owned particle i from the other particles of its body.  thermal_stiffness(): of
+    // the repulsion with temp T, else 0.  stop_for(): particle i is in a wall
 
     const std::vector<Boundary *> &all() const { return boundaries; }
     const Surface *find_surface(const std::vector<double> &sides);
+    double density_of_body(int i) const { return own_numden[i]; }
+    double thermal_stiffness() const;
     [[noreturn]] void stop_for(int i) const;
 
     double memory_usage() const override;
@@ -179,10 +185,10 @@ namespace SPHDissipation {
     void find_bodies();
     void sum_bodies();
     void keep_first_shape();
-    double own_term() const;    // shape of the kernel at 0 times its norm
+    double weight(int i) const;            // in the loops
+    double resting_volume(int i) const;    // mass over the reference density
     bool warned_of_contact = false;
     void warn_of_contact();
-    double begin_frozen(int i, const double *gravity);
     enum class FrictionPart { ALL, ADDED, BODY };    // factor: surface_factor(), this less 1, 1
     void find_surface_pairs();
     void run_friction(FrictionPart, PairTally *, const StepNoise *, bool linear);

@@ -192,6 +192,16 @@ namespace SPHDissipation {
     return NAN;
   }
 
+  // Return the density at pressure p without heat, not of an ideal gas
+
+  SPH_FUNCTION double cold_density_at(Eos eos, const EosParams &par, double p)
+  {
+    const double cc = par.c_el * par.c_el;
+    if (eos != Eos::TAIT) return par.rho0 + (p - par.pb_el) / cc;
+    const double b = par.rho0 * cc / par.gamma;
+    return par.rho0 * std::pow((p - par.pb_el) / b + 1.0, 1.0 / par.gamma);
+  }
+
   // Return the density at pressure p and heat q per mass
 
   inline double density_at(Eos eos, const EosParams &par, double p, double q)
@@ -199,15 +209,14 @@ namespace SPHDissipation {
     const double heat = par.gruneisen * q;
     switch (eos) {
       case Eos::TAIT: {
-        const double b = par.rho0 * par.c_el * par.c_el / par.gamma;
-        const double cold = par.rho0 * std::pow((p - par.pb_el) / b + 1.0, 1.0 / par.gamma);
+        const double cold = cold_density_at(eos, par, p);
         return (heat == 0.0) ? cold : density_by_steps(eos, par, p, q, cold, 0.0);
       }
       case Eos::IDEAL:
         return (p - par.pb_el) / heat;
       default: {
         const double cc = par.c_el * par.c_el;
-        if (heat == 0.0) return par.rho0 + (p - par.pb_el) / cc;
+        if (heat == 0.0) return cold_density_at(eos, par, p);
         return (p - par.pb_el + cc * par.rho0) / (cc + heat);
       }
     }

@@ -266,6 +266,18 @@ namespace SPHDissipation {
       vfrac[i] = vol;
     }
 
+    // Give a body particle the density and the pressure of frozen fluid with the number density c; its volume stays
+
+    SPH_FUNCTION void freeze(int i, double c) const
+    {
+      const double w = weight[i * each], vol = w / c;
+      const double p = pressure(par.eos, types[type[i]].eos, rmass[i] / vol, 0.0);
+      particle[i].g = pressure_term(p, vol, w);
+      zeta_term[i] = 0.0;
+      rho[i] = rmass[i] / vol;
+      desph[i] += p * vol * density[i].cdot * (vol / w);
+    }
+
     // Give a boundary particle the reference density of its type and no pressure: most of its neighbors are missing
 
     SPH_FUNCTION void set_reference_volume(int i, int not_fluid) const

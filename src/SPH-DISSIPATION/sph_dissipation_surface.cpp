@@ -44,9 +44,10 @@ void SurfaceStage::run(int bits, const BoundaryPairs &pairs, const std::vector<d
 
 /* ---------------------------------------------------------------------- */
 
-void SurfaceStage::run(int bits, const std::vector<double> &sides)
+void SurfaceStage::run(int bits, const std::vector<double> &sides,
+                       const std::vector<double> &body_in)
 {
-  body = nullptr;
+  body = body_in.empty() ? nullptr : body_in.data();
   begin();
   const double *side = sides.data();
   for (int i = 0; i < atom->nlocal; i++) {

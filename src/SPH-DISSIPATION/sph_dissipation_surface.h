@@ -101,7 +101,7 @@ namespace SPHDissipation {
 
     // Do the same with known vectors toward the fluid, three numbers for each owned particle with one of these bits, in
     // order.
-    void run(int bits, const std::vector<double> &sides);
+    void run(int bits, const std::vector<double> &sides, const std::vector<double> &body);
 
     double memory_usage() const override { return bytes(surface); }
 

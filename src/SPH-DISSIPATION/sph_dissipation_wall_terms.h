@@ -445,6 +445,62 @@ namespace SPHDissipation {
     extend_motion(condition, surface, sum, rows.particle[i].u, spin);
   }
 
+  // The same with thermal noise: the wall has its own motion, volume, and friction, so that the friction matrix is symmetric.
+  // Its pressure does not depend on the fluid, so that the force has an energy
+
+  template <class Rows>
+  SPH_FUNCTION void rest_at_surface(const Rows &rows, int i, const WallCondition &condition,
+                                    const Surface &surface, const double *acceleration)
+  {
+    const auto &eos = rows.types[rows.type[i]].eos;
+    rows.set_state(i, eos.rho0,
+                   surface_pressure(surface, eos.rho0, eos.pb, condition.gravity, acceleration));
+    rows.zeta_term[i] = 0.0;
+  }
+
+  // Return the first c of a body particle with density continuity, and set its rho_sum.  If fluid fills the rest of the
+  // support, c gives the pressure of this fluid at rest.  If the rest is empty, c belongs to the body alone: water that comes
+  // later does not compress this particle.  others, sum, gravity: see set_frozen()
+
+  template <class Rows>
+  SPH_FUNCTION double begin_frozen(const Rows &rows, int i, double others, const BoundarySum *sum,
+                                   const double *gravity)
+  {
+    constexpr double EMPTY = 0.8, FULL = 1.0;    // filled part of the support without the body
+    constexpr double REST[3] = {0.0, 0.0, 0.0};
+    const auto &eos = rows.types[rows.type[i]].eos;
+    const double weight = rows.weight[i * rows.each], mass = rows.rmass[i] / weight;
+    rows.rho_sum[i] = -mass * rows.density[i].c;
+    const double c = rows.density[i].c + others;
+    if (!sum || !(sum->weight > 0.0)) return c;
+
+    BoundarySum fluid = *sum;
+    fluid.pressure -= fluid.zeta_term;
+    double p = wall_pressure(fluid, gravity, REST);
+    if (!rows.par.tension && p < 0.0) p = 0.0;
+    const double own = rows.reference_volume(i) * (others / weight + rows.par.self_weight);
+    const double part = (fluid.weight / (1.0 - own) - EMPTY) / (FULL - EMPTY);
+    const double rho = cold_density_at(rows.par.eos, eos, p);
+    if (!(rho > 0.0 && part > 0.0)) return c;
+    return c + ((part < 1.0) ? part : 1.0) * (rho / mass - c);
+  }
+
+  // Give a body particle the pressure of frozen fluid.  others = number density from the other particles of its body; sum =
+  // over the fluid around, or nullptr, and gravity = acceleration of the fluid: density continuity reads them for the first
+  // density
+
+  template <class Rows>
+  SPH_FUNCTION void set_frozen(const Rows &rows, int i, double others, const BoundarySum *sum,
+                               const double *gravity)
+  {
+    double c = rows.density[i].c;    // with an offset, c includes the other particles of the body
+    if (!rows.par.continuity)
+      c += others;
+    else if (!(rows.rho_sum[i] < 0.0))
+      c = begin_frozen(rows, i, others, sum, gravity);
+    rows.freeze(i, c);
+  }
+
   // Set the excess of a boundary particle: velocity and spin (nullptr: none) in pass 2, less its own velocity u and the spin
   // of its rigid body
 
