@@ -447,7 +447,7 @@ def with_walls(style, particles, name, model, steps, newton="on", every=None, st
     return text.replace(" c_E\n", f" c_E {columns}\n").replace("c_F[*] ", "c_F[*] f_FLOOR[*] f_LID[*] ")
 
 
-def compare_walls(lammps, style, particles, text, ranks=1, bound=1e-9):
+def compare_walls(lammps, style, particles, text, ranks=1, bound=1e-9, wall="LID"):
     (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
     assert_same(style, cpu, kokkos, bound)
     assert_same_totals(thermo, thermo_kokkos, bound)
@@ -455,8 +455,9 @@ def compare_walls(lammps, style, particles, text, ranks=1, bound=1e-9):
     for name in cpu.columns:
         if name.startswith("f_"):
             assert np.abs(cpu[name] - kokkos[name]).max() < bound * scale, name
-    assert np.abs(cpu["f_LID[1]"]).max() > 1e-3 * scale
-    assert not any("on the host" in line or "legacy" in line for line in result.warnings), result.warnings
+    assert np.abs(cpu[f"f_{wall}[1]"]).max() > 1e-3 * scale
+    legacy = wall == "LID"    # of bodies, fix property/atom and fix rigid of LAMMPS are exchanged on the host
+    assert not any("on the host" in line or (legacy and "legacy" in line) for line in result.warnings), result.warnings
     return result
 
 
@@ -549,6 +550,60 @@ def test_particle_in_a_wall(lammps, style, ranks):
     write(lammps, style, particles)
     result = lammps(with_walls(style, particles, "channel", fluids(style, 2), 100, step=0.002), ranks=ranks, check=False)
     assert result.code != 0 and f"Particle {shot + 1} of the fluid of pair style {style} is inside a wall" in result.error
+
+
+# ---------------------------------------------------------------------------------------------
+# bodies that the fluid moves; test_bodies.py and test_elastic.py have the references
+
+DISCS = {2: ("region DISC cylinder z 6.5 10 2.3 INF INF\nregion BRICK block 11.7 14.6 8.2 12.8 INF INF\n"),
+         3: ("region DISC sphere 2.6 4 4 1.6\nregion BRICK block 4.7 7.2 2.2 5.3 2.2 5.3\n")}
+RIGID = "fix RIGID BODIES {mover}\nfix BODY BODIES sph/wall move rigid body molecule\n"
+ELASTIC = "fix NVE BODIES nve\nfix BODY BODIES sph/wall move elastic\n"
+
+
+def with_bodies(particles, model, steps, newton="on", fixes=RIGID, walls="", mover="rigid molecule"):
+    groups = (f"fix MOL all property/atom mol ghost yes\n{DISCS[particles.dim]}group DISC region DISC\ngroup BRICK region BRICK\n"
+              "group BODIES union DISC BRICK\nset group DISC mol 1\nset group BRICK mol 2\n")
+    if walls:
+        groups += "region IN block 1.2 18.8 1.2 18.8 INF INF\ngroup IN region IN\ngroup FRAME subtract all IN\n" + walls
+    groups += f"group REST subtract all BODIES{' FRAME' if walls else ''}\n"
+    text = script("sph/bulk", particles, model, steps, newton, fixes=groups + integrate("sph/bulk", group="REST") + fixes.format(mover=mover))
+    return text.replace(" c_E\n", " c_E f_BODY[1] f_BODY[2] f_BODY[6]\n").replace("c_F[*] ", "c_F[*] f_BODY[*] ")
+
+
+@pytest.mark.parametrize("ranks, newton, options", [(1, "on", ""), (2, "off", ""), (4, "on", ""), (2, "on", "volume mass kernel quintic"),
+                                                    (1, "on", "temp 0.01 1234"), (2, "off", "temp 0.01 1234 shear mg/fr2"),
+                                                    (2, "on", "density continuity tension yes"), (4, "on", "density continuity")])
+def test_bodies(lammps, ranks, newton, options):
+    """A disc and a brick, which change processors and turn; the forces on their particles."""
+    particles = disordered(2, 20, seed=41, jitter=0.1, speed=0.3, spread=0.0)
+    text = with_bodies(particles, fluids("sph/bulk", 2, options=options), 100, newton)
+    compare_walls(lammps, "sph/bulk", particles, text, ranks, wall="BODY")
+
+
+@pytest.mark.parametrize("ranks, mover, options", [(1, "rigid/nve molecule", "temp 0.01 1234"), (2, "rigid/small molecule", "")])
+def test_bodies_in_3d(lammps, ranks, mover, options):
+    particles = disordered(3, 8, seed=42, jitter=0.1, speed=0.3, spread=0.0)
+    text = with_bodies(particles, fluids("sph/bulk", 3, options=options), 40, mover=mover).replace("read_data", "atom_modify map array\nread_data")
+    compare_walls(lammps, "sph/bulk", particles, text, ranks, wall="BODY")
+
+
+@pytest.mark.parametrize("ranks, options", [(1, ""), (2, "temp 0.01 1234"), (4, "density continuity")])
+def test_bodies_in_a_vessel(lammps, ranks, options):
+    """Walls of both kinds: with a temperature, and symmetric friction of the bodies alone, or of both."""
+    particles = disordered(2, 20, seed=43, jitter=0.1, speed=0.3, spread=0.0)
+    cold = "temp" in options
+    model = "".join(line + " cv 2.0 conductivity 0.7" * (line.startswith("pair_coeff") and not cold) + "\n"
+                    for line in fluids("sph/bulk", 2, options=options).splitlines())
+    text = with_bodies(particles, model, 60, walls=f"fix FRAME FRAME sph/wall{'' if cold else ' heat temp 3.0'}\n")
+    compare_walls(lammps, "sph/bulk", particles, text, ranks, wall="BODY")
+
+
+@pytest.mark.parametrize("ranks, newton, options", [(1, "on", ""), (2, "off", "temp 0.01 1234"), (4, "on", "density continuity")])
+def test_elastic_bodies(lammps, ranks, newton, options):
+    particles = disordered(2, 20, seed=44, jitter=0.1, speed=0.1, spread=0.0)
+    text = with_bodies(particles, fluids("sph/bulk", 2, options=options), 40, newton, fixes=ELASTIC)
+    compare_walls(lammps, "sph/bulk", particles, text, ranks, wall="BODY")
 
 
 # ---------------------------------------------------------------------------------------------
@@ -651,14 +706,22 @@ def test_noise(lammps, style, dim, options, ranks, newton):
         assert np.ptp(thermo_kokkos["c_E"]) < 1e-13 * thermo_kokkos["c_E"][0]
 
 
-@pytest.mark.parametrize("ranks, newton", [(1, "on"), (2, "off")])
-def test_noise_at_walls(lammps, style, ranks, newton):
-    """Particles that the walls repel, and the energy of that."""
-    particles = disordered(2, 20, seed=29, jitter=0.45, speed=0.2, spread=0.0)
-    text = with_walls(style, particles, "cavity", fluids(style, 2, options="temp 0.05 1234"), 40, newton, spins=("zero", "zero"))
-    (cpu, thermo, _), (kokkos, thermo_kokkos, _) = both(lammps, style, particles, text, ranks)
+@pytest.mark.parametrize("style, dim, ranks, newton, options", [
+    *((style, 2, ranks, newton, "") for style in STYLES for ranks, newton in ((1, "on"), (2, "off"), (4, "on"))),
+    *(("sph/bulk", 2, 2, "on", options) for options in ("volume mass shear morris", "shear mg/fr2 kernel quintic", "shear espanol", "density continuity delta 0")),
+    ("sph/bulk", 3, 2, "on", "shear espanol"), ("sph/micropolar", 3, 1, "on", "")])
+def test_noise_at_walls(lammps, style, dim, ranks, newton, options):
+    """Particles that the walls repel, the energy of that by particle, and their stress."""
+    particles = disordered(dim, {2: 20, 3: (6, 20, 6)}[dim], seed=29, jitter=0.45, speed=0.2, spread=0.0)
+    text = with_walls(style, particles, "cavity" if dim == 2 else "channel", fluids(style, dim, options=f"temp 0.05 1234 {options}"), 40, newton,
+                      spins=("zero", "zero"))
+    text = text.replace("fix FLUID", "compute P all pe/atom\ncompute S all stress/atom NULL virial\nfix FLUID", 1).replace("c_F[*] ", "c_F[*] c_P c_S[1] c_S[4] ")
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = both(lammps, style, particles, text, ranks)
     assert_same(style, cpu, kokkos, 1e-9)
     assert_same_totals(thermo, thermo_kokkos, 1e-9)
+    for name in ("c_P", "c_S[1]", "c_S[4]", *(name for name in cpu.columns if name.startswith("f_"))):
+        assert relative(cpu[name] - kokkos[name], np.append(cpu[name], 1e-3)) < 1e-9, name
+    assert not any("on the host" in line or "legacy" in line for line in result.warnings), result.warnings
 
 
 @pytest.mark.parametrize("options", ["", " kernel quintic volume mass"])

@@ -174,9 +174,8 @@ REFUSALS = {
     "Pair_style {} limit requires bulk density": [(PAIR, "*limit*", "*bulk density*")],
     "Fix {}: only slip no and spin zero can be used with temp": [(NOISE, "*temp*", "*slip no*", "*spin zero*")],
     "Fix {} requires pair_style {} volume mass": [("fix_sph_refine", "*volume mass*")],
-    "Fix {} move {} requires the style without suffix": [(WALL, "*move rigid* and *move elastic*", "the suffix *kk*")],
 }
-REFUSING = re.compile(r"cannot (?:be (?:used|combined) (?:with|in|when)|use dynamic)\b|requires (?:limit|bulk|delta|tension|dim|pair_style \{\})|needs fix \{\} viscous|without suffix|can be used with temp")
+REFUSING = re.compile(r"cannot (?:be (?:used|combined) (?:with|in|when)|use dynamic)\b|requires (?:limit|bulk|delta|tension|dim|pair_style \{\})|needs fix \{\} viscous|can be used with temp")
 
 
 def sentences(page):
