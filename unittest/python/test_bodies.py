@@ -306,7 +306,7 @@ def test_bodies_of_one_temperature(lammps, options):
     (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 body rigid group 2 a b\n"),
      "do not move as a rigid body"),
     (("fix 2 body rigid single\n", "group a id 13 14\ngroup b id 15 16 17\nfix 2 a rigid single\nfix 4 b rigid/nve single\n"),
-     "give each kind a fix sph/wall of its own"),
+     "which move in different ways; give each kind a fix"),
 ])
 def test_errors(lammps, change, words):
     text = small(lammps, "1.0 5.0 0.7 1.8 2.5") + ("run 20\n" if "rigid body" in words else "run 0\n")
