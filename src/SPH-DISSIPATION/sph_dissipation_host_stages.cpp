@@ -252,7 +252,7 @@ template <class Space> void DiffusionStage<Space>::evaluate(int not_fluid, int i
 
   // factor of a_ij that the loops leave out
 
-  const double factor = par.delta * par.support / (alike ? impedances[0] : 1.0);
+  const double factor = par.delta * par.support / (alike ? par.impedance : 1.0);
   engine.for_each(atom->nlocal, [&](int i) {
     volume_rates(rows[i].a + vol, flow_of + 2 * i, factor, fields.vol_rate[i], fields.vol_heat[i]);
   });

@@ -97,6 +97,7 @@ namespace SPHDissipation {
       }
       if (one.eos.impedance() != first->eos.impedance()) impedes_alike = false;
     }
+    if (first) impedance = first->eos.impedance();
     loops_of_flows = own_temperatures ? flows & ~Flows::in_pass_2() : flows;
   }
 

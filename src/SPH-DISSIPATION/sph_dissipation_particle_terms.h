@@ -399,7 +399,7 @@ namespace SPHDissipation {
       const bool takes_part = diffuses(i, not_fluid, integrated);
       row[vol] = takes_part ? particle[i].vol : 0.0;
       row[vol + 1] = takes_part ? pressure(par.eos, eos, rho[i], esph[i] / rmass[i]) : 0.0;
-      impedance = eos.impedance();
+      impedance = types[type[i]].other ? par.impedance : eos.impedance();
     }
 
     // Return the pressure without bulk term, from density and energy

@@ -200,6 +200,7 @@ namespace SPHDissipation {
     int loops_of_flows = 0;           // bits of the flows that have loops apart from pass 2
     int flows_alike = 0;              // bits of the flows with one coefficient of all types
     bool impedes_alike = true;        // all types have the same rho0 c0
+    double impedance = 1.0;           // rho0 c0 of the first fluid
     bool shared = false;              // some types belong to other styles
     bool states = false;              // any type has states
     double step = 0.0;                // time step of the numbers of the states

@@ -5,6 +5,7 @@ geometric mean of A of two types, as dense sums over all pairs.
 """
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -176,6 +177,15 @@ def test_frequency_of_drops(lammps, dim, radius, options, wanted):
     assert np.mean(tension) == pytest.approx(wanted, rel=0.04)
     least, most = {2: (1.4, 2.4), 3: (0.9, 1.7)}[dim]
     assert least < np.mean(decay) / viscous < most
+
+
+def test_input_of_the_page(lammps):
+    """The drop of Howto_sph_surface has the period of theory."""
+    section = (Path(__file__).resolve().parents[2] / "doc" / "src" / "Howto_sph_surface.rst").read_text(encoding="utf-8").split("A drop with tension\n")[1]
+    code = re.search(r"code-block:: LAMMPS\n\n((?:   .*\n|\n)+)", section)[1]
+    found, theory = map(float, re.search(r"^half a period (\S+), by theory (\S+)$", lammps(code).log, re.MULTILINE).groups())
+    assert theory == pytest.approx(np.pi * np.sqrt(12**3 / 6), abs=0.06)
+    assert found == pytest.approx(theory, rel=0.05)
 
 
 def test_rectangle_to_circle(lammps):

@@ -622,6 +622,31 @@ def test_splits_and_merges_keep_densities(lammps):
     assert np.abs(end["c_G"]).max() > 0.1
 
 
+@pytest.mark.parametrize("c0", [10.0, 20.0])
+def test_particles_of_other_styles_take_no_part_in_the_diffusion(lammps, c0):
+    """The first particle belongs to another pair style, and has no impedance."""
+    drop = free_drop()
+    drop.type = np.where(drop.x[:, 0] > 0, 2, 1)
+    wall = drop.where(drop.x[:, 1] < -4)
+    wall.x[:, 1] -= 12.0
+    wall.type[:] = 3
+    both = wall.where(wall.type == 3)
+    for name in "x", "v", "mass", "esph", "type":
+        setattr(both, name, np.concatenate([getattr(wall, name), getattr(drop, name)]))
+    density = "density continuity tension yes"
+    types = "pair_coeff 1 1 sph/bulk 1.0 10.0 0.1 0.3 3.0\npair_coeff 2 2 sph/bulk 1.0 {c0} 0.1 0.3 3.0\n".format(c0=c0)
+    alone = text(2, density, coeffs=types.replace("sph/bulk ", ""), boundary=free(2))
+    beside = text(2, density, coeffs=types + "pair_coeff * 3 zero\n", boundary=free(2)).replace(
+        f"pair_style sph/bulk dim 2 {density}", f"pair_style hybrid sph/bulk dim 2 {density} zero 3.0")
+    rho = []
+    for particles, lines in (drop, alone), (both, beside):
+        write(lammps.path("box.data"), particles)
+        lammps(lines + "timestep 0.005\n" + dump("a.dump", 20) + "run 20\n")
+        rho.append(lammps.frame("a.dump")["rho"][-len(drop):])
+    assert np.ptp(rho[0]) > 1e-4
+    assert relative(rho[1] - rho[0], rho[0]) < 1e-13
+
+
 def test_relaxing_processes(lammps):
     """The diffusion does not strain a process that is at rest; energy stays of second order."""
     start = (header(2, "on", free(2), "sph/bulk relax 1") + "atom_modify map array\ncomm_modify vel yes\nregion B block -30 30 -30 30 -0.5 0.5\n"

@@ -21,6 +21,7 @@ DRAG = "^{},{},(?:[^,]*,){{{}}}" + N
 CAVITY = "^{},100,(?:[^,]*,){{{}}}" + N
 
 WHERE = {
+    "Drop with a free surface": (None, ("results.txt", rf"^ *20 +{N}")),
     "Dam break, arrival at the far wall": (("results.txt", rf"^experiment\D*?, Buchner +{N}"), ("results.txt", rf"^n60 +60 +{N}")),
     "Dam break, pressure on the wall, 3 < t < 4": (("results.txt", rf"^experiment.* {N}, \S+$"), ("results.txt", rf"^n60 +60 +\S+ +{N}")),
     "Dam break, pressure on the wall, 4 < t < 5": (("results.txt", rf"^experiment.*, {N}$"), ("results.txt", rf"^n60 +60 +\S+ +\S+ +{N}")),
