@@ -1,7 +1,7 @@
 // What a run copies between host and device; loaded by LD_PRELOAD, and as a tool of Kokkos by KOKKOS_TOOLS_LIBS.  The file that COPIES
 // names gets a line for each loop ("loop NAME"), for each copy of an array to another place in memory ("copy NAME BYTES"), and for each
-// call that needs fields of particles which are newer on the other side ("to host MASK", "to device MASK").  The last ones are there as
-// well where host and device share their memory and nothing is copied.
+// call that needs fields of particles which are newer on the other side ("to host MASK", "to device MASK").  A line "call SIDE MASK" is
+// there for each call that names fields, also where host and device share their memory and nothing is copied.
 
 #include <cstdint>
 #include <cstdio>
@@ -18,8 +18,14 @@ FILE *out()
   return file;
 }
 
+void call(Side side, uint64_t mask)
+{
+  if (out() && mask) fprintf(out(), "call %s %llx\n", side == HOST ? "host" : "device", static_cast<unsigned long long>(mask));
+}
+
 void need(Side side, uint64_t mask)
 {
+  call(side, mask);
   const uint64_t old = newer[1 - side] & mask;
   newer[1 - side] &= ~mask;
   if (out() && old) fprintf(out(), "to %s %llx\n", side == HOST ? "host" : "device", static_cast<unsigned long long>(old));
@@ -58,6 +64,7 @@ void AtomKokkos::modified(ExecutionSpace space, uint64_t mask)
   typedef void Function(AtomKokkos *, ExecutionSpace, uint64_t);
   static auto *const next = (Function *) dlsym(RTLD_NEXT, "_ZN9LAMMPS_NS10AtomKokkos8modifiedENS_14ExecutionSpaceEm");
   const Side side = (space == Device) ? DEVICE : HOST;
+  call(side, mask);
   newer[side] |= mask;
   newer[1 - side] &= ~mask;
   next(this, space, mask);

@@ -6,6 +6,7 @@ SPHD_SWITCHES has the switches that turn the suffix on, for instance "-k on t 2 
 
 import os
 import subprocess
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -920,7 +921,7 @@ def test_tension(lammps, dim, ranks, newton, cohesion, tension):
 # ---------------------------------------------------------------------------------------------
 # what is copied between host and device
 
-OMEGAEST, TORQUE = 1 << 55, 1 << 36  # bits of the fields
+INERTIA, OMEGAEST, TORQUE, MASK = 1 << 56, 1 << 55, 1 << 36, 1 << 5    # bits of the fields
 
 
 @pytest.fixture(scope="session")
@@ -932,23 +933,26 @@ def counter(tmp_path_factory):
     return library
 
 
-def copies(lammps, counter, monkeypatch, text, least, ranks=1):
-    """Fields (bits) and arrays (bytes) that are copied from one pass 1 to the next, the first of which is that of the setup; arrays from
-    least bytes on."""
+def copies(lammps, counter, monkeypatch, text, least):
+    """From one pass 1 to the next, the first of which is that of the setup: fields (bits) and arrays (bytes) that are copied, arrays from
+    least bytes on; the calls that name fields."""
     for name in ("LD_PRELOAD", "KOKKOS_TOOLS_LIBS"):
         monkeypatch.setenv(name, str(counter))
     monkeypatch.setenv("COPIES", "copies.txt")
-    result = lammps(text, ranks=ranks)
-    steps = [[]]
+    result = lammps(text)
+    steps, calls = [[]], [Counter()]
     for line in lammps.path("copies.txt").read_text().splitlines():
         word, *rest = line.split()
         if word == "to":
             steps[-1].append((rest[0], int(rest[1], 16)))
+        elif word == "call":
+            calls[-1][rest[0], int(rest[1], 16)] += 1
         elif word == "copy" and int(rest[-1]) >= least:
             steps[-1].append(("array", " ".join(rest)))
         elif line == "loop sph:density":
             steps.append([])
-    return steps, result
+            calls.append(Counter())
+    return steps, calls, result
 
 
 @pytest.mark.skipif(not DEVICE_LOOPS, reason="nothing is on a device")
@@ -956,26 +960,40 @@ def copies(lammps, counter, monkeypatch, text, least, ranks=1):
     ("sph/dt 10", "", ""), ("sph/refine 10 volume 1.0 wait 0.0", "volume mass", ""), ("sph/torque 0.1 0.2 0.3", "", ""),
     ("sph/torque 0.0 0.0 v_T", "", "variable T equal 0.1\n"), ("ave/time 10 1 10 c_thermo_temp", "", ""), ("momentum 1 linear 1 1 1", "", "suffix off\n")])
 def test_copies(lammps, style, counter, monkeypatch, fix, options, words):
-    """A fix without suffix that acts every ten steps costs nothing in the others; sph/torque copies torques there and back, and spins."""
+    """A fix without suffix that acts every ten steps names no fields in the other steps, which are those of a run without it;
+    sph/torque names torques and spins.  With two memories, the arrays that are copied are counted as well."""
     if "torque" in fix and not spinning(style):
         pytest.skip("no spins")
     dim = 3 if "0.1 0.2" in fix else 2
     particles = disordered(dim, {2: 20, 3: 8}[dim], seed=41, jitter=0.1, speed=0.1, spread=0.0)
     write(lammps, style, particles)
-    text = script(style, particles, fluids(style, dim, options=options), 25, fixes=integrate(style) + f"{words}fix F all {fix}\nsuffix on\n", every=25)
-    text = text.replace("delay 0 every 1 check yes", "delay 100 every 100 check no")
-    steps, result = copies(lammps, counter, monkeypatch, text, least=8 * len(particles))
-    assert len(steps) == 27 and steps[1], "nothing is counted"
-    apart = any(kind == "array" for kind, _ in steps[1])  # the memories of host and device
-    last, every = steps[-1], steps[2:-1]  # the last one has the output
-    assert last
+
+    def run(fixes):
+        text = script(style, particles, fluids(style, dim, options=options), 25, fixes=integrate(style) + fixes, every=25)
+        text = text.replace("delay 0 every 1 check yes", "delay 100 every 100 check no")
+        steps, calls, result = copies(lammps, counter, monkeypatch, text, least=8 * len(particles))
+        assert len(steps) == 27 and calls[1], "nothing is counted"
+        return steps, calls, result
+
+    _, without, _ = run("")
+    assert all(one == without[2] for one in without[2:-1])
+    steps, calls, result = run(f"{words}fix F all {fix}\nsuffix on\n")
+    added = [one - without[2] for one in calls[2:-1]]    # the last one has the output
+    acts = [8, 18] if "refine" in fix else [9, 19]    # sph/refine acts before pass 1
+    apart = any(kind == "array" for kind, _ in steps[1])    # the memories of host and device
     assert apart == any("copies all particles" in line for line in result.warnings) or not ("momentum" in fix or "v_T" in fix)
     if "torque" in fix and not words:
-        wanted = {("host", TORQUE | OMEGAEST), ("device", TORQUE)}
-        assert all({one for one in step if one[0] != "array"} == wanted and len(step) == 2 + 3 * apart for step in every[1:]), every
+        named = {mask for one in added for _, mask in one}
+        assert all(added) and not any(mask & ~(TORQUE | OMEGAEST | MASK | INERTIA) for mask in named), named
     elif words:
-        assert all(step for step in every)
+        assert all(added)
     else:
-        acts = [k for k, step in enumerate(every) if step]
-        assert acts == [9, 19], (acts, every)
-        assert not any(kind == "device" for step in every for kind, _ in step) or "ave/time" in fix, every
+        assert [k for k, one in enumerate(added) if one] == acts, added
+    if apart and not words:
+        every = steps[2:-1]
+        if "torque" in fix:
+            assert all({one for one in step if one[0] != "array"} == {("host", TORQUE | OMEGAEST), ("device", TORQUE)} and len(step) == 5
+                       for step in every[1:]), every
+        else:
+            assert [k for k, step in enumerate(every) if step] == acts, every
+            assert not any(kind == "device" for step in every for kind, _ in step) or "ave/time" in fix, every
