@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from helpers import Particles, dump, free, header, lattice, relative
+from helpers import KOKKOS, Particles, dump, free, header, lattice, relative
 
 # Ten particles: x y vx vy m rho; and what an independent program finds for Wendland C2, rc = 0.5, rho0 = 1, c0 = 10, mu = 0.1,
 # kappa = 0.3, delta = 0.1: offset, rate of rho by motion, force, rate of the internal energy without diffusion; dV/dt by
@@ -622,6 +622,7 @@ def test_splits_and_merges_keep_densities(lammps):
     assert np.abs(end["c_G"]).max() > 0.1
 
 
+@pytest.mark.skipif(KOKKOS, reason="pair_style hybrid takes no pair styles of KOKKOS")
 @pytest.mark.parametrize("c0", [10.0, 20.0])
 def test_particles_of_other_styles_take_no_part_in_the_diffusion(lammps, c0):
     """The first particle belongs to another pair style, and has no impedance."""
