@@ -122,8 +122,6 @@ AtomVecSPHBulkKokkos &AtomVecSPHBulkKokkos::of(Atom *atom)
    Pack messages on the host with tiled ranks: CommTiledKokkos::forward_comm_device() of LAMMPS 4 Jul 2026 packs messages of
    a processor to itself, but unpacks them only with velocities; with velocities, messages from several processors overlap in
    the buffer, since the rows are assumed to be as long as those of borders() without velocities.
-   Otherwise pack them on the device, also if MPI cannot read its memory: then LAMMPS would copy whole arrays to the host for
-   each message, while the packed rows are those of particles near the edges of the sub-domain.
 ------------------------------------------------------------------------- */
 
 void AtomVecSPHBulkKokkos::init()
@@ -133,10 +131,7 @@ void AtomVecSPHBulkKokkos::init()
                has_spins ? "sph/micropolar" : "sph/bulk");
   AtomVecSPHBulk::init();
   set_atom_masks();
-  KokkosLMP &settings = *lmp->kokkos;
-  if (settings.forward_comm_changed) settings.forward_comm_legacy = 0;
-  if (settings.forward_pair_comm_changed) settings.forward_pair_comm_legacy = 0;
-  if (comm->style == Comm::TILED) settings.forward_comm_legacy = 1;
+  if (comm->style == Comm::TILED) lmp->kokkos->forward_comm_legacy = 1;
 
   const Fluid *const fluid = find_fluid(force);
   if (fluid && !fluid->pair->kokkosable)

@@ -992,7 +992,7 @@ def test_copies(lammps, style, counter, monkeypatch, fix, options, words):
     if apart and not words:
         every = steps[2:-1]
         if "torque" in fix:
-            assert all({one for one in step if one[0] != "array"} == {("host", TORQUE | OMEGAEST | INERTIA), ("device", TORQUE)} and len(step) == 5
+            assert all({one for one in step if one[0] != "array"} == {("host", TORQUE | OMEGAEST | INERTIA), ("device", TORQUE)} and len(step) == 6
                        for step in every[1:]), every
         else:
             assert [k for k, step in enumerate(every) if step] == acts, every
