@@ -22,6 +22,7 @@
 #include "domain_kokkos.h"
 #include "memory_kokkos.h"
 #include "neighbor.h"
+#include "sph_dissipation_bodies.h"
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_columns_kokkos.h"
 #include "sph_dissipation_masks.h"
@@ -207,7 +208,11 @@ void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
   if (bodies) {
     renew(moving, "sph/wall:bodies", bodies->size());
     const auto on_host = Kokkos::create_mirror_view(moving);
-    for (int k = 0; k < bodies->size(); k++) on_host(k) = (*bodies)[k];
+    for (int k = 0; k < bodies->size(); k++) {
+      const Bodies::Body &body = (*bodies)[k];
+      std::copy_n(body.omega, 3, on_host(k).omega);
+      std::copy_n(&body.rotation[0][0], 9, &on_host(k).rotation[0][0]);
+    }
     Kokkos::deep_copy(moving, on_host);
   }
   auto mask = atomKK->k_mask.template view<DeviceType>();
@@ -219,7 +224,7 @@ void FixSPHWallKokkos<DeviceType>::move_surface_kokkos(
         if (!(mask(walls.particles(k)) & bit)) return;
         Surface &s = walls.surface(k);
         now.angular(s.omega);
-        const Bodies::Body *const body = is_body ? &all(walls.body(k) - first) : nullptr;
+        const BodyMotion *const body = is_body ? &all(walls.body(k) - first) : nullptr;
         for (int d = 0; body && d < 3; d++) s.omega[d] = body->omega[d];
         if (!turns) return;
         double turned[3];

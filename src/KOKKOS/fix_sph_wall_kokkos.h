@@ -24,7 +24,6 @@ FixStyle(sph/wall/kk/host,FixSPHWallKokkos<LMPHostType>);
 
 #include "fix_sph_wall.h"
 #include "kokkos_base.h"
-#include "sph_dissipation_bodies.h"
 #include "sph_dissipation_boundary_kokkos.h"
 
 namespace LAMMPS_NS {
@@ -67,13 +66,18 @@ class FixSPHWallKokkos :
   void set_boundary_kokkos(const SPHDissipation::BoundaryDataKokkos<DeviceType> &,
                            const SPHDissipation::LoopDataKokkos<DeviceType> &) override;
 
-  void find_particles();    // public, because CUDA requires this of functions with lambdas
+  // public, because CUDA requires this of functions with lambdas, and of the types in these
+
+  void find_particles();
+  struct BodyMotion {
+    double omega[3], rotation[3][3];    // acting spin; rotation of the last step
+  };
 
  private:
   Kokkos::DualView<double *[6], Kokkos::LayoutRight, LMPDeviceType> k_array;    // array_atom
   Kokkos::View<int *, DeviceType> particles;    // owned wall particles, since the neighbor list
   int nparticles;
-  Kokkos::View<SPHDissipation::Bodies::Body *, DeviceType> moving;    // the bodies
+  Kokkos::View<BodyMotion *, DeviceType> moving;    // by body
   // on a GPU: values of these particles that the host gets in each step
   static constexpr bool ON_HOST = std::is_same_v<DeviceType, LMPHostType>;
   Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> packed;
