@@ -260,6 +260,11 @@ bool BoundaryStage::has_contact() const
          });
 }
 
+bool BoundaryStage::is_boundary(int i) const
+{
+  return atom->mask[i] & group_bits;
+}
+
 bool BoundaryStage::is_body(int i) const
 {
   return atom->mask[i] & body_bits;

@@ -44,7 +44,8 @@ namespace SPHDissipation {
     int bits() const { return group_bits; }    // of the groups of all boundaries
     bool has_symmetric_friction() const { return symmetric_bits != 0; }    // any boundary
     int bits_of_symmetric_friction() const { return symmetric_bits; }
-    bool is_body(int i) const;    // i belongs to a body that the fluid moves
+    bool is_boundary(int i) const;    // owned or ghost particle i belongs to a wall or body
+    bool is_body(int i) const;        // i belongs to a body that the fluid moves
     bool has_bodies() const { return body_bits != 0; }
     bool has_contact() const;    // any body has contact forces
     int bits_of_bodies() const { return body_bits; }

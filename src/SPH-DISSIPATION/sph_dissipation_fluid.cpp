@@ -79,7 +79,7 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
     temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)),
     stability(new Stability(lmp, *model, *engine, *boundary, *contact)),
-    log(new FluidReport(lmp, *engine, *exchange, style, *model, *boundary, *open, *shift, *viscous))
+    log(new FluidReport(lmp, *engine, *exchange, style, *model, *boundary, *shift, *viscous))
 {
 }
 
@@ -282,7 +282,7 @@ void Fluid::begin_forces()
   const FluidChecks check(lmp, style, *model);
   if (neighbor->ago == 0) {
     check.masses();
-    log->check_list();
+    log->check_list(not_fluid());
   }
   if (update->setupflag) {
     check.numbers();
@@ -563,7 +563,7 @@ void Fluid::begin_step(double dt)
 {
   if (log->elasticity_is_due(dt))
     for_report([this]() {
-      log->check_elasticity(pressures());
+      log->check_elasticity(pressures(), not_fluid());
     });
   if (!engine->constants().states) return;
   set_step(dt);
@@ -861,7 +861,7 @@ void Fluid::report()
   const FluidChecks check(lmp, style, *model);
   const CoeffTable table = stability->table();
   check_places();    // no effect if sum_density() has called it
-  log->begin_run(table, pressures());
+  log->begin_run(table, pressures(), not_fluid());
   if (follows) check.followed_densities(densities_before);
   densities_before.clear();
   follows = false;
@@ -926,7 +926,7 @@ Threads &Fluid::team() const
 
 bool Fluid::is_boundary(int i) const
 {
-  return atom->mask[i] & boundary->bits();
+  return boundary->is_boundary(i);
 }
 
 bool Fluid::has_type(int type) const

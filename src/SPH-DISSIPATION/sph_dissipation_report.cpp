@@ -25,7 +25,6 @@
 #include "sph_dissipation_checks.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_model.h"
-#include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_state.h"
 #include "sph_dissipation_table.h"
 #include "sph_dissipation_viscous.h"
@@ -48,9 +47,9 @@ static constexpr double FAST_NOISE = 0.5;
 
 /* ---------------------------------------------------------------------- */
 
-void FluidReport::check_list()
+void FluidReport::check_list(int not_fluid)
 {
-  if (reads_velocities()) check_speed();
+  if (reads_velocities()) check_speed(!not_fluid);
   if (reads_densities()) check_expansion();
 }
 
@@ -65,15 +64,15 @@ bool FluidReport::reads_velocities() const
    Without walls and open ends, speeds are relative to the center of mass.
 ------------------------------------------------------------------------- */
 
-void FluidReport::check_speed()
+void FluidReport::check_speed(bool all_is_fluid)
 {
   constexpr double MANY = 0.1;                                  // part of the particles
   const double fast = (model.choice.continuity) ? 0.1 : 0.3;    // speed over c0
   bigint mine[2] = {0, 0}, all[2];
   double mean[3] = {0.0, 0.0, 0.0};
-  if (boundary.empty() && open.empty()) group->vcm(0, group->mass(0), mean);
+  if (all_is_fluid) group->vcm(0, group->mass(0), mean);
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!model.has_type(atom->type[i]) || is_wall(i)) continue;
+    if (!model.has_type(atom->type[i]) || boundary.is_boundary(i)) continue;
     double v[3];
     MathExtra::sub3(atom->v[i], mean, v);
     mine[0]++;
@@ -108,7 +107,7 @@ void FluidReport::check_expansion()
                    THIN = 0.9;    // part of the particles; density over rho_min
   bigint mine[2] = {0, 0}, all[2];
   for (int i = 0; i < atom->nlocal; i++) {
-    if (!model.has_type(atom->type[i]) || is_wall(i)) continue;
+    if (!model.has_type(atom->type[i]) || boundary.is_boundary(i)) continue;
     mine[0]++;
     if (atom->rho[i] < THIN * model.coeffs[atom->type[i]].eos.rho_min) mine[1]++;
   }
@@ -124,7 +123,8 @@ void FluidReport::check_expansion()
 
 /* ---------------------------------------------------------------------- */
 
-void FluidReport::begin_run(const CoeffTable &table, const std::function<double(int)> &pressure)
+void FluidReport::begin_run(const CoeffTable &table, const std::function<double(int)> &pressure,
+                            int not_fluid)
 {
   if (is_new) {
     const FluidChecks check(lmp, style, model);
@@ -132,13 +132,13 @@ void FluidReport::begin_run(const CoeffTable &table, const std::function<double(
     model.warn_of_ignored();
     warned_step = noise_step = 0.0;
     FluidState state(lmp, engine, exchange, model);
-    state.run(1, not_fluid(), pressure);
+    state.run(1, not_fluid, pressure);
     if (comm->me == 0)
       utils::logmesg(lmp, "Pair style {}: {}, {} loops\n{}{}", style,
                      model.summary(par.dim, par.support), engine.instruction_set(),
                      table.text(update->dt) + skin_text(table), state.table());
     check_all_interact();
-    check.sizes(not_fluid());
+    check.sizes(not_fluid);
     check.state_times();
     check.surface();
     state.warn_of_density(style);
@@ -155,10 +155,10 @@ void FluidReport::begin_run(const CoeffTable &table, const std::function<double(
    noise.  Shifting prevents such an elasticity.
 ------------------------------------------------------------------------- */
 
-void FluidReport::check_elasticity(const std::function<double(int)> &pressure)
+void FluidReport::check_elasticity(const std::function<double(int)> &pressure, int not_fluid)
 {
   FluidState state(lmp, engine, exchange, model);
-  state.run(1, not_fluid(), pressure);
+  state.run(1, not_fluid, pressure);
   check_elasticity(state);
 }
 
@@ -215,7 +215,7 @@ void FluidReport::announce_noise(double rate)
   double fastest = 0.0, fastest_all;    // sqrt(kT/m)/c0
   for (int i = 0; i < atom->nlocal; i++) {
     const TypeCoeff &coeff = model.coeffs[atom->type[i]];
-    if (!coeff.other && !is_wall(i))
+    if (!coeff.other && !boundary.is_boundary(i))
       fastest = std::max(
           fastest, sqrt(force->boltz * model.choice.temperature / atom->rmass[i]) / coeff.eos.c0);
   }
@@ -261,16 +261,4 @@ void FluidReport::check_all_interact()
                        style, i, j, i, j, style);
         return;
       }
-}
-
-/* ---------------------------------------------------------------------- */
-
-int FluidReport::not_fluid() const
-{
-  return boundary.bits() | open.bits();
-}
-
-bool FluidReport::is_wall(int i) const
-{
-  return atom->mask[i] & boundary.bits();
 }

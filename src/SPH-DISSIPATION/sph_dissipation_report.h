@@ -26,45 +26,43 @@ namespace SPHDissipation {
   class CoeffTable;
   class FluidModel;
   class FluidState;
-  class OpenStage;
   class ViscousStage;
 
   // Lines of a fluid in the log, and warnings about the fluid at the start of a run and during a run.  All ranks call these
-  // functions; pressure(i) = pressure of owned particle i.
+  // functions; pressure(i) = pressure of owned particle i; not_fluid = bits of the groups of walls and open zones.
 
   class FluidReport : public Stage {
    public:
     FluidReport(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &style,
-                const FluidModel &model, const BoundaryStage &boundary, const OpenStage &open,
+                const FluidModel &model, const BoundaryStage &boundary,
                 const ShiftStage<HostSpace> &shift, const ViscousStage &viscous) :
         Stage(lmp, engine, exchange),
-        style(style), model(model), boundary(boundary), open(open), shift(shift), viscous(viscous)
+        style(style), model(model), boundary(boundary), shift(shift), viscous(viscous)
     {
     }
 
     // The coefficients are new: log their table, with the warnings of a first run, at the next begin_run()
     void renew() { is_new = true; }
     bool has_new() const { return is_new; }
-    void begin_run(const CoeffTable &, const std::function<double(int)> &pressure);
+    void begin_run(const CoeffTable &, const std::function<double(int)> &pressure, int not_fluid);
 
     // Warn once of each time step that is too large
     void check_time_step(const CoeffTable &);
 
     // At a neighbor list: warn once of fast particles and of a fluid that flies apart.  Return whether the next call reads
     // the velocities or the densities
-    void check_list();
+    void check_list(int not_fluid);
     bool reads_velocities() const;
     bool reads_densities() const;
 
     // A step of the length dt has passed: return true if the elasticity of the arrangement is to be checked again
     bool elasticity_is_due(double dt) { return look_after > 0.0 && (moving += dt) > look_after; }
-    void check_elasticity(const std::function<double(int)> &pressure);
+    void check_elasticity(const std::function<double(int)> &pressure, int not_fluid);
 
    private:
     const std::string &style;
     const FluidModel &model;
     const BoundaryStage &boundary;
-    const OpenStage &open;
     const ShiftStage<HostSpace> &shift;
     const ViscousStage &viscous;
 
@@ -76,10 +74,8 @@ namespace SPHDissipation {
     double look_after = 0.0;    // time until the elasticity is checked again; 0: never
     double moving = 0.0;        // time since the last check of the elasticity
 
-    int not_fluid() const;        // bits of the groups of walls and open zones
-    bool is_wall(int i) const;    // of a wall or body
     void check_all_interact();
-    void check_speed();
+    void check_speed(bool all_is_fluid);
     void check_expansion();
     void check_elasticity(FluidState &);
     std::string skin_text(const CoeffTable &) const;

@@ -216,7 +216,7 @@ CoeffTable Stability::table() const
     const bool body = boundary.is_body(i);
     const double acting = body ? c * std::max(1.0, 0.5 * sqrt(coeff.eos.rho0 / lightest)) : c;
     fastest = std::max(fastest, v);
-    const bool fluid = !is_wall(i);
+    const bool fluid = !boundary.is_boundary(i);
     const double values[NMOST] = {acting + v,
                                   c,
                                   acting,
@@ -293,7 +293,7 @@ double Stability::lightest_fluid() const
 {
   double mine = HUGE_VAL;
   for (int i = 0; i < atom->nlocal; i++)
-    if (model.has_type(atom->type[i]) && !is_wall(i))
+    if (model.has_type(atom->type[i]) && !boundary.is_boundary(i))
       mine = std::min(mine, model.coeffs[atom->type[i]].eos.rho0);
   return over_all(world, mine, MPI_MIN);
 }
@@ -308,7 +308,7 @@ std::function<double(int, double)> Stability::sound() const
   return [this, states = engine.states()](int i, double rho) {
     const Eos eos = model.choice.eos;
     const EosParams &par = model.coeffs[atom->type[i]].eos;
-    if (is_wall(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
+    if (boundary.is_boundary(i) && eos != Eos::IDEAL && par.gruneisen > 0.0) return par.c0;
     const double q = (atom->esph[i] - states.energy(i)) / atom->rmass[i] -
         SPHDissipation::elastic_energy(eos, par, atom->rho[i]);
     return sound_speed(eos, par, rho, SPHDissipation::elastic_energy(eos, par, rho) + q);
@@ -344,15 +344,8 @@ double Stability::fall_time() const
 {
   double mine = 0.0, largest;    // acceleration
   for (int i = 0; i < atom->nlocal; i++)
-    if (model.has_type(atom->type[i]) && !is_wall(i))
+    if (model.has_type(atom->type[i]) && !boundary.is_boundary(i))
       mine = std::max(mine, MathExtra::len3(atom->f[i]) / atom->rmass[i]);
   MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE, MPI_MAX, world);
   return (largest > 0.0) ? sqrt(length() / largest) : UNLIMITED_STEP;
-}
-
-/* ---------------------------------------------------------------------- */
-
-bool Stability::is_wall(int i) const
-{
-  return atom->mask[i] & boundary.bits();
 }

@@ -113,7 +113,6 @@ namespace SPHDissipation {
     double length() const;    // h
     double lightest_fluid() const;
     double smallest_inertia() const;
-    bool is_wall(int i) const;    // of a wall or body
   };
 
 }    // namespace SPHDissipation
