@@ -133,7 +133,8 @@ template <class DeviceType> void PairSPHBulkKokkos<DeviceType>::init_style()
                      fluid->style, reason);
     execution_space = Host;
     datamask_read = ALL_MASK;
-    datamask_modify = F_MASK | TORQUE_MASK | DESPH_MASK | FLUID_SET_ON_HOST;
+    datamask_modify =
+        F_MASK | TORQUE_MASK | DESPH_MASK | VEST_MASK | OMEGAEST_MASK | FLUID_SET_ON_HOST;
     no_virial_fdotr_compute = 0;
     return;
   }

@@ -32,7 +32,8 @@ namespace SPHDissipation {
 
   // Fields that tasks of the host change
 
-  constexpr uint64_t FLUID_SET_ON_HOST = RMASS_MASK | STATES_MASK | OFFSET_MASK | FLUID_DERIVED;
+  constexpr uint64_t FLUID_SET_ON_HOST = RMASS_MASK | STATES_MASK | OFFSET_MASK | ESPH_MASK |
+      DESPH_BEFORE_MASK | FLUID_DERIVED;
 
   // The fluid on the device, with full neighbor lists; or on the host, with the loops of the CPU style, half lists, and the
   // threads of KOKKOS.  Reports at the start of a run are made on the host.
