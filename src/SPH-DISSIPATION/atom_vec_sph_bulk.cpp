@@ -464,8 +464,8 @@ std::vector<double> AtomVecSPHBulk::temperatures() const
   const Fluid *const fluid = find_fluid(lmp, fmt::format("Compute property/atom {}", name));
   if (!fluid->is_set_up())
     error->all(FLERR,
-               "Compute property/atom {} needs the coefficients of the pair style that is there "
-               "now: use run 0 first",
+               "Compute property/atom {} needs the coefficients of the present pair style: use run "
+               "0 first",
                name);
   std::vector<double> result(atom->nlocal);
   fluid->temperatures(result.data());

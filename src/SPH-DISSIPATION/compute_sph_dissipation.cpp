@@ -69,8 +69,7 @@ void ComputeSPHDissipation::collect(double *heat_of_each, double *power)
 {
   const Fluid *const fluid = find_fluid(lmp, fmt::format("Compute {}", style));
   if (!fluid->has_forces())
-    error->all(FLERR,
-               "Compute {} needs the forces of the particles that are there now: use run 0 first",
+    error->all(FLERR, "Compute {} needs the forces of the present particles: use run 0 first",
                style);
 
   std::vector<double> own(size_vector);

@@ -86,10 +86,8 @@ void ComputeSPHEnergy::compute_vector()
     energy[STATES] = fluid->state_energy(groupbit);
     if (fluid->has_pair_energy()) {
       if (!fluid->is_set_up() || !fluid->has_forces())
-        error->all(
-            FLERR,
-            "Compute {} needs the forces of the particles that are there now: use run 0 first",
-            style);
+        error->all(FLERR, "Compute {} needs the forces of the present particles: use run 0 first",
+                   style);
       energy[PAIRS] = fluid->pair_energy(groupbit);
     }
   }

@@ -101,10 +101,8 @@ void ComputeSPHGauge::compute_vector()
 
   const Fluid *const fluid = find_fluid(lmp, fmt::format("Compute {}", style));
   if (!fluid->has_forces())
-    error->all(
-        FLERR,
-        "Compute {} needs the densities of the particles that are there now: use run 0 first",
-        style);
+    error->all(FLERR, "Compute {} needs the densities of the present particles: use run 0 first",
+               style);
   const FluidModel &model = *fluid->model;
   const double support = fluid->support_radius();
   const auto pressure = fluid->pressures();

@@ -127,7 +127,7 @@ double ComputeSPHTemp::internal() const
   if (!fluid || !fluid->model->has_temperatures()) return 0.0;
   if (!fluid->is_set_up())
     error->all(FLERR,
-               "Compute {} needs the coefficients of the pair style that is there now: use run 0 "
+               "Compute {} needs the coefficients of the present pair style: use run 0 "
                "first",
                style);
   std::vector<double> temperatures(atom->nlocal);

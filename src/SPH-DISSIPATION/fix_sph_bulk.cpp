@@ -298,8 +298,8 @@ void FixSPHBulk::init_viscous()
     const auto *other = dynamic_cast<FixSPHBulk *>(ifix);
     if (other && *other->viscous != settings)
       error->all(FLERR,
-                 "Fixes {} and {} treat the viscous terms in different ways: keyword viscous, and "
-                 "those that belong to it, must be the same in all fixes {}",
+                 "Fixes {} and {} treat the viscous terms in different ways: keyword viscous and "
+                 "its options must be the same in all fixes {}",
                  id, ifix->id, style);
   }
   if (settings.mode == Viscous::EXPLICIT) return;
@@ -446,9 +446,9 @@ void FixSPHBulk::warn_not_integrated()
         return mask & rigid;
       }))
     error->warning(FLERR,
-                   "{} particles of the fluid belong to rigid bodies, which are made of fluid: it "
-                   "slips along them, and they feel its forces half a step late; use fix sph/wall "
-                   "move rigid where it can be",
+                   "{} particles of the fluid belong to rigid bodies: the fluid around slips along "
+                   "these bodies, and its forces act on them half a step late; use fix sph/wall "
+                   "move rigid if possible",
                    rigid_alone);
 }
 

@@ -160,7 +160,10 @@ void FixSPHOpen::init()
                "Fix {} cannot be used with temp of the pair style: its particles do not fluctuate",
                style);
   if (update->dt < 0.0)
-    error->all(FLERR, "Fix {}: the time step must not be negative: what has left is gone", style);
+    error->all(
+        FLERR,
+        "Fix {}: the time step must not be negative: particles that have left do not come back",
+        style);
   fluid->open->add(this);
   fields = Fields::of(atom);
 

@@ -116,8 +116,8 @@ FixSPHBulk *FixSPHOpen::find_integrator(int fluid_group)
   }
   if (!integrator)
     error->all(FLERR,
-               "Fix {}: there is no fix sph/bulk or sph/micropolar of group {}, so that "
-               "nothing moves what enters",
+               "Fix {}: there is no fix sph/bulk or sph/micropolar of group {}, so that no fix "
+               "moves the particles that enter",
                style, fluid_name);
   return integrator;
 }
@@ -421,10 +421,11 @@ bool FixSPHOpen::warn_of_gap()
   }
   if (widest < GAP * std::max(spacing, spacing_of(fluid->dimension(), largest))) return false;
   if (comm->me == 0)
-    error->warning(FLERR,
-                   "Fix {} {}: there is a gap of {:.3g} in the fluid in front of what enters at "
-                   "step {}: the fluid tears off",
-                   style, id, widest, update->ntimestep);
+    error->warning(
+        FLERR,
+        "Fix {} {}: there is a gap of {:.3g} in the fluid in front of the particles that enter at "
+        "step {}: the fluid tears off",
+        style, id, widest, update->ntimestep);
   return true;
 }
 

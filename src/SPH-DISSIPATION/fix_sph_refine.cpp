@@ -99,8 +99,8 @@ FixSPHRefine::FixSPHRefine(LAMMPS *lmp, int narg, char **arg) :
   }
   if (split_above < 2.0 * merge_below)
     error->all(FLERR,
-               "Fix {}: split must be at least twice merge, not {} and {}: what has split would "
-               "merge again",
+               "Fix {}: split must be at least twice merge, not {} and {}: particles that have "
+               "split would merge again",
                style, split_above, merge_below);
   check_setup();
 
@@ -170,9 +170,10 @@ void FixSPHRefine::init()
   if (neighbor->build_once)
     error->all(FLERR, "Fix {} needs new neighbor lists: neigh_modify once must be no", style);
   if (is_rerun(lmp))
-    error->all(FLERR,
-               "Fix {} cannot be used with rerun: snapshots have no masses, which it changes",
-               style);
+    error->all(
+        FLERR,
+        "Fix {} cannot be used with rerun: snapshots have no masses, and the fix changes masses",
+        style);
   check_overlap();
 
   const double support = fluid->support_radius();

@@ -184,8 +184,8 @@ void FixSPHWall::init()
   noise = fluid->model->choice.thermal;
   if (noise && (condition->slip || condition->spin != WallSpin::ZERO))
     error->all(FLERR,
-               "Fix {}: only slip no and spin zero can be used with temp of the pair style: what "
-               "other walls do to the fluid is no friction that a noise can be in balance with",
+               "Fix {}: only slip no and spin zero can be used with temp of the pair style: the "
+               "force of other walls is no friction with which a noise can be in balance",
                style);
 
   if (fluid->model->choice.own_temperatures && heat == WallHeat::FLUX)

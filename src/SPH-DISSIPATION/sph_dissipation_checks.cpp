@@ -627,8 +627,8 @@ void FluidChecks::sizes(int boundary_bits) const
     if (all[2 * type] > -TOLERATED * all[2 * type + 1] && comm->me == 0)
       error->warning(FLERR,
                      "Pair style {}: masses of type {} differ by a factor of {:.3g}, and with "
-                     "volume number neighbors of different size get wrong volumes; use volume "
-                     "mass if it is their sizes that differ, not their densities",
+                     "volume number neighbors of different size get wrong volumes; use volume mass "
+                     "if their sizes differ and not their densities",
                      style, type, -all[2 * type] / all[2 * type + 1]);
 }
 
@@ -648,8 +648,8 @@ void FluidChecks::energies(const std::function<double(int)> &heat, int boundary_
   MPI_Allreduce(number, all, 2, MPI_LMP_BIGINT, MPI_SUM, world);
   if (all[1] && !gas && comm->me == 0)
     error->warning(FLERR,
-                   "Pair style {}: {} of {} particles that conduct heat, or whose pressure or "
-                   "viscosity depends on it, have none; use keyword temperature of fix {}",
+                   "Pair style {}: {} of {} particles have no heat, though they conduct heat, or "
+                   "their pressure or viscosity depends on heat; use keyword temperature of fix {}",
                    style, all[1], all[0], style);
   if (all[1] && gas && comm->me == 0)
     error->warning(FLERR,

@@ -538,10 +538,11 @@ void Fluid::begin_run(double dt, bool continues, const Changes &changes)
   std::vector<std::string> names;
   for (const int slot : Fields::of(atom)->slots)
     if (places >> slot & 1) names.push_back("d_" + Fields::state_name(slot));
-  error->warning(FLERR,
-                 "Pair style {}: {} particles have {}, which their type does not have and which is "
-                 "lost; states of its own begin anew",
-                 style, others, utils::join_words(names, ", "));
+  error->warning(
+      FLERR,
+      "Pair style {}: {} particles have values of {}, which their type does not have: these "
+      "values are lost, and the states of the type begin with their first values",
+      style, others, utils::join_words(names, ", "));
 }
 
 /* ---------------------------------------------------------------------- */

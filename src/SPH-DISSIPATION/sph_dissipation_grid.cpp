@@ -395,8 +395,7 @@ bigint GridCompute::map()
 {
   const Fluid *const mapped = fluid();
   if (!mapped->has_forces())
-    error->all(FLERR,
-               "Compute {} needs the volumes of the particles that are there now: use run 0 first",
+    error->all(FLERR, "Compute {} needs the volumes of the present particles: use run 0 first",
                style);
 
   if (atom->nmax > nmax) {

@@ -147,8 +147,8 @@ void ZoneLattice::init(double support_in, int fluid_bit)
   if (given_spacing > 0.0) spacing = given_spacing;
   if (!by_distance() && spacing == 0.0)
     error->all(FLERR,
-               "{}: cannot find the distance of the particles in a row, for none stands straight "
-               "behind the one nearest to the plane; give it by the keyword spacing",
+               "{}: cannot find the distance of the particles in a row, for no particle stands "
+               "straight behind the particle nearest to the plane; use the keyword spacing",
                owner);
 }
 

@@ -601,7 +601,7 @@ void StiffStage::rkl2_step(double interval)
     error->all(
         FLERR, Error::NOLASTLINE,
         "Fix {} viscous rkl2: the largest viscous rate times the time step is {:.4g} at step "
-        "{}, which needs {:.4g} stages, more than the {} that there may be; use viscous "
+        "{}, which needs {:.4g} stages, and {} are the most; use viscous "
         "implicit or a smaller time step",
         style, modes, moment(), needed, static_cast<int>(RKL2::MOST));
   const int fewest = static_cast<int>(needed);

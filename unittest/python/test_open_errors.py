@@ -316,7 +316,7 @@ def test_forces_of_other_pair_styles(lammps, styles, times):
 
 def test_fluid_that_tears_off(lammps):
     """It is five times as fast as what enters."""
-    warned(lammps, r"Fix sph/open in: there is a gap of [0-9.]+ in the fluid in front of what enters at step [0-9]+: the fluid tears off",
+    warned(lammps, r"Fix sph/open in: there is a gap of [0-9.]+ in the fluid in front of the particles that enter at step [0-9]+: the fluid tears off",
            velocity=lambda place: place * 0 + [[0.5, 0, 0] if s > 0 else [U, 0, 0] for s in place[:, 0]], timestep=0.1, run="run 50\nrun 50\n")
 
 

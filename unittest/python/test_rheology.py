@@ -254,7 +254,7 @@ def test_arrhenius_of_two_fluids(lammps):
     assert relative(lammps.frame("d")["f"] - force, force) < 1e-12
     particles.esph[:] = 0.0
     particles.write(lammps.path("box.data"))
-    assert any("viscosity depends on it, have none" in line for line in lammps(header(2) + "read_data box.data\n" + model + rest + "run 0\n").warnings)
+    assert any("viscosity depends on heat" in line for line in lammps(header(2) + "read_data box.data\n" + model + rest + "run 0\n").warnings)
 
 
 @pytest.mark.parametrize("keywords, ignored", [("arrhenius 3 1 4", True), ("cross 1 1 0", True), ("power 0.5 0 1", True), ("power 1.5 0.1 1", False), ("arrhenius 3 1 4 yield 0.3 40", False)])

@@ -291,7 +291,7 @@ def test_type_without_the_keyword(lammps):
     text = case(lammps) + "set type 3 type 4\n" + TOTAL + dump("f.dump", 1, "d_solute")
     result = lammps(text + "run 1\n")
     first, last = lammps.frames("f.dump")
-    assert any("particles have d_solute, which their type does not have and which is lost" in one for one in result.warnings)
+    assert any("particles have values of d_solute, which their type does not have" in one for one in result.warnings)
     assert np.all(last["d_solute"][last["type"] == 4] == 0.0) and np.abs(last["d_solute"]).max() > 1.0
     assert "rho0*D" in result.log
 

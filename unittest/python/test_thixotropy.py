@@ -76,7 +76,7 @@ def test_types(lammps):
         force = Reference(particles).forces(particles.v, lambda g, rho: MU + MU1 * structure, like=like)[0]
         text = start(lammps, particles, model=model[:model.rindex(KEYWORD)] + other + "\n")
         result = lammps(text + "fix FLUID all sph/bulk\ntimestep 0.0001\n" + dump("f", extra="d_structure") + "run 0\n", ranks=2)
-        assert any("have d_structure, which their type does not have" in line for line in result.warnings)
+        assert any("have values of d_structure, which their type does not have" in line for line in result.warnings)
         frame = lammps.frame("f")
         assert np.array_equal(frame["d_structure"], structure)
         assert relative(frame["f"] - force, force) < 1e-12
@@ -221,7 +221,7 @@ def test_set_type_drops_the_structure(lammps):
     model = f"pair_style sph/bulk\npair_coeff 1 1 {RHO0} {C0} {MU} {KAPPA} {SUPPORT[2]} {KEYWORD}\npair_coeff 2 2 {RHO0} {C0} {MU} {KAPPA} {SUPPORT[2]}\n"
     text = start(lammps, particles, model=model) + "fix FLUID all sph/bulk\ntimestep 0.0001\nrun 0\ngroup one type 1\nset group one type 2\n"
     result = lammps(text + dump("s", extra="d_structure") + "run 0\nset group one type 1\nrun 0\n")
-    assert sum("have d_structure, which their type does not have" in line for line in result.warnings) == 2
+    assert sum("have values of d_structure, which their type does not have" in line for line in result.warnings) == 2
     assert all(np.all(frame["d_structure"] == 0.0) for frame in lammps.frames("s"))
 
 

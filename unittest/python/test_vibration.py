@@ -399,7 +399,7 @@ def test_change_of_the_processes(lammps):
             error = np.abs(start[field] - value).max()
             assert error <= (0.0 if want in ("none", 0.5) else 1e-8 if want == "kept" else 0.02), (k, field)
             last[field] = end[field]
-    lost = re.findall(r"(\d+) particles have (.*), which their type does not have and which is lost", "\n".join(result.warnings))
+    lost = re.findall(r"(\d+) particles have values of (.*), which their type does not have: these values are lost", "\n".join(result.warnings))
     assert lost == [("144", "d_tvib"), ("144", "d_rho_relaxed2"), ("144", "d_rho_relaxed1")]
 
 
@@ -428,7 +428,7 @@ def test_particles_that_change_their_type(lammps, change):
     # the vibrations take their part of the heat, or give it back
     assert 0.6 * before < after < 1.5 * before
     assert now["c_T[1]"].min() > 10.0
-    assert any("which their type does not have and which is lost" in line for line in result.warnings)
+    assert any("which their type does not have: these values are lost" in line for line in result.warnings)
 
 
 def test_time_step(lammps):
