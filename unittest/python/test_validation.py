@@ -68,6 +68,8 @@ WHERE = {
     "Channel flow": (None, ("results.txt", rf"^newtonian, n = 50: error of u {N}")),
     "Two fluids in a rotating cup": (None, ("results.txt", rf"^eta2/eta1 = 0\.2, n = 32: Omega_in = {N} with mg")),
     "Sloshing": (None, ("results.txt", rf"^tank +25 +{N}")),
+    "Waves of a paddle, *kh* = 1.5, height": (None, ("results.txt", rf"^waves +20 +1\.5 +{N}")),
+    "Waves of a paddle, *kh* = 1.5, length": (None, ("results.txt", rf"^waves +20 +1\.5 +\S+ +{N}")),
     "Floating box, frequency": (None, ("results.txt", rf"^heave +25 +{N}")),
     "Floating box, draft": (("floating.csv", rf"^heavy,25,0\.9,,,[^,]*,{N}"), ("floating.csv", rf"^heavy,25,0\.9,,,{N}")),
     "Standing wave, frequency": (None, ("results.txt", rf"^ *50 +100 +\S+ +{N}")),
