@@ -120,11 +120,11 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::write_restart(FIL
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::setup_pre_force(int vflag)
 {
-  const bool new_energies = sets_temperatures();
-  atomKK->sync(Host, (on_host() || new_energies) ? ALL_MASK : MOTION | EXTRAPOLATION);
+  const bool new_energies = sets_temperatures(), on_host = this->on_host() || exact;
+  atomKK->sync(Host, (on_host || new_energies) ? ALL_MASK : MOTION | EXTRAPOLATION);
   FixSPHBulk::setup_pre_force(vflag);
   if (new_energies) atomKK->modified(Host, ENERGY);
-  if (on_host()) atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
+  if (on_host) atomKK->modified(Host, VEST_MASK | INERTIA_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -177,12 +177,16 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::integrate_on_devi
   const ParticlesKokkos<DeviceType> particles(atomKK, AtomVecSPHBulkKokkos::of(atom));
   const TimeStep step = time_step();
   const VolumeStep volume = changes_volume ? volume_step_on_device() : VolumeStep();
+  const bool is_exact = exact;
+  const OwnForces own = is_exact ? fluid->forces_for_steps() : OwnForces();
   const int bit = groupbit;
 
   for_each<DeviceType>(
       "sph:integrate", nlocal_group(), KOKKOS_LAMBDA(int i) {
         if (!(particles.mask(i) & bit)) return;
-        if (half == BEGIN)
+        if (is_exact)
+          own.step(step, particles, i, half == BEGIN, true);
+        else if (half == BEGIN)
           step.begin(particles, i);
         else
           step.end(particles, i);
@@ -211,7 +215,7 @@ template <class DeviceType> VolumeStep FixSPHBulkKokkos<DeviceType>::volume_step
 
 template <class DeviceType> bool FixSPHBulkKokkos<DeviceType>::on_host() const
 {
-  return remap_v_flag || exact;
+  return remap_v_flag || (exact && !fluid->computes_on_device());
 }
 
 /* ----------------------------------------------------------------------

@@ -27,8 +27,8 @@ FixStyle(sph/bulk/kk/host,FixSPHBulkKokkos<LMPHostType>);
 
 namespace LAMMPS_NS {
 
-// fix sph/bulk with the work of every step on the device.  The CPU style does four things on the host: the exchange of
-// energy of thermal noise, large viscosities, velocities that fix deform remaps, and the start of a run.
+// fix sph/bulk with the work of every step on the device.  The CPU style does three things on the host: steps with a pair
+// style on the host that exchange energy exactly, velocities that fix deform remaps, and the start of a run.
 
 template <class DeviceType> class FixSPHBulkKokkos : public FixSPHBulk {
  public:

@@ -17,9 +17,12 @@
 
 #include "pair_sph_bulk_kokkos.h"
 
+#include "atom.h"
 #include "atom_masks.h"
 #include "comm.h"
+#include "domain.h"
 #include "error.h"
+#include "fix_deform.h"
 #include "fix_sph_bulk.h"
 #include "force.h"
 #include "modify.h"
@@ -79,10 +82,33 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
         dynamic_cast<OpenZone *>(ifix))
       return fmt::format("fix {}", ifix->style);
     auto *integrator = dynamic_cast<FixSPHBulk *>(ifix);
-    if (integrator && integrator->has_viscous_stage())
-      return fmt::format("fix {} viscous", ifix->style);
+    if (integrator && integrator->has_viscous_stage()) {
+      const std::string because = viscous_on_host_because();
+      const bool there = integrator->kokkosable &&
+          integrator->execution_space == ExecutionSpaceFromDevice<DeviceType>::space;
+      if (!there || !because.empty()) return fmt::format("fix {} viscous{}", ifix->style, because);
+    }
     if (integrator && integrator->shifts_particles() && !integrator->kokkosable)
       return fmt::format("fix {} shift", ifix->style);
+  }
+  return "";
+}
+
+/* ----------------------------------------------------------------------
+   Return what the device has no code for in a fluid with large viscosities; empty if there is nothing.
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+std::string PairSPHBulkKokkos<DeviceType>::viscous_on_host_because() const
+{
+  for (int i = 1; i <= atom->ntypes; i++)
+    if (fluid->model->conducts(i)) return " with conduction of heat";
+  for (int k = 0; k < modify->nfix; k++) {    // a caller goes through get_fix_list()
+    const auto *one = dynamic_cast<Boundary *>(modify->fix[k]);
+    if (one && one->has_bodies()) return " with bodies";
+    if (one && fluid->model->choice.thermal) return " with temp and walls";
+    const auto *deform = dynamic_cast<FixDeform *>(modify->fix[k]);
+    if (deform && deform->remapflag == Domain::V_REMAP) return " with fix deform remap v";
   }
   return "";
 }

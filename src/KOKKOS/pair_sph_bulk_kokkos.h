@@ -50,6 +50,7 @@ template <class DeviceType> class PairSPHBulkKokkos : public PairSPHBulk, public
 
   bool runs_on_device() const;
   std::string on_host_because() const;
+  std::string viscous_on_host_because() const;
   std::set<std::string> copying;    // fixes of the warning
   void warn_of_copies();
 };

@@ -17,7 +17,6 @@
 #include "atom_vec_sph_bulk_kokkos.h"
 #include "neighbor.h"
 #include "pair.h"
-#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_masks.h"
 #include "update.h"
 
@@ -26,32 +25,76 @@ using namespace SPHDissipation;
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType>
-void BoundaryStageKokkos<DeviceType>::run(LoopDataKokkos<DeviceType> &data, int inum)
+template <class DeviceType> void BoundaryStageKokkos<DeviceType>::run()
 {
-  const bool found = (neighbor->ago == 0 || bits != stage.bits());
+  LoopDataKokkos<DeviceType> &data = *space.data;
+  const bool found = (neighbor->ago == 0 || listed_bits != stage.bits());
   with_kernel(data.par.kernel, [&](auto kernel) {
     typedef decltype(kernel) K;
     if (found) {
       find_particles(data);
-      find_rows(data, inum);
+      find_rows(data, pair->list->inum);
       find_surface<K>(data);
       boundaries.clear();
       for (Boundary *one : stage.all())
         boundaries.push_back(dynamic_cast<BoundaryKokkos<DeviceType> *>(one));
     }
-
-    const int bodies = stage.bits_of_bodies();
-    const bool bodies_begin = data.par.continuity && update->setupflag;
-    boundary.summed = bodies_begin ? bits : bits & ~bodies;
     const bool before = (!found && surface_step != update->ntimestep);
     surface_step = update->ntimestep;
     for (auto *one : boundaries) one->move_surface_kokkos(boundary, before);
-    sum_fluid<K>(data);
     check<K>(data);
   });
+  extend(false);
+  set_excess(data);
+}
+
+/* ----------------------------------------------------------------------
+   Set the values of owned boundary particles, and send them to ghosts.  The message is redundant for ghosts of the fluid.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void BoundaryStageKokkos<DeviceType>::extend(bool increments)
+{
+  LoopDataKokkos<DeviceType> &data = *space.data;
+  const bool bodies_begin = data.par.continuity && update->setupflag;
+  boundary.summed = bodies_begin ? bits() : bits() & ~stage.bits_of_bodies();
+  with_kernel(data.par.kernel, [&](auto kernel) {
+    sum_fluid<decltype(kernel)>(data);
+  });
   for (auto *one : boundaries) one->set_boundary_kokkos(boundary, data);
+  if (increments) {
+    const ParticleRows rows = data;
+    const auto walls = boundary;
+    const auto pushing = pushes;
+    for_each<DeviceType>(
+        "sph:increments", walls.nowned, KOKKOS_LAMBDA(int k) {
+          const int i = walls.particles(k);
+          const BoundarySum &sum = walls.sum(k);
+          if (!(sum.weight > 0.0)) return;
+          rows.particle[i].g = pressure_term(pushing(k) ? sum.pressure / sum.weight : 0.0,
+                                             rows.vfrac[i], rows.weight[i * rows.each]);
+        });
+  }
   if (boundary.symmetric) end_friction(data);
+  std::vector<Field> fields = {field(data.particle, data.particle->u, 5),    // u, vol and g
+                               {data.zeta_term, 1, 1}};
+  if (data.spin) fields.push_back(field(data.spin, data.spin->w, 3));
+  FlowRow *const heat = data.flow[HEAT_FLOW];
+  if (stage.conducts()) fields.push_back(field(heat, &heat->vol, 4));
+  if (boundary.occupied.extent(0)) fields.push_back({boundary.occupied.data(), 1, 1});
+  space.forward(fields);
+}
+
+template <class DeviceType> void BoundaryStageKokkos<DeviceType>::note_pressures()
+{
+  if ((int) pushes.extent(0) != boundary.nowned)
+    renew(pushes, "sph:boundary_pushes", boundary.nowned);
+  const ParticleRows rows = *space.data;
+  const auto walls = boundary;
+  const auto pushing = pushes;
+  for_each<DeviceType>(
+      "sph:boundary_pushes", walls.nowned, KOKKOS_LAMBDA(int k) {
+        pushing(k) = (rows.particle[walls.particles(k)].g > 0.0 || rows.par.tension) ? 1 : 0;
+      });
 }
 
 /* ----------------------------------------------------------------------
@@ -75,9 +118,9 @@ void BoundaryStageKokkos<DeviceType>::end_friction(const LoopDataKokkos<DeviceTy
 template <class DeviceType>
 void BoundaryStageKokkos<DeviceType>::find_particles(const LoopDataKokkos<DeviceType> &data)
 {
-  bits = stage.bits();
+  listed_bits = stage.bits();
   boundary.symmetric = stage.bits_of_symmetric_friction();
-  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost, some = bits;
+  const int nlocal = atom->nlocal, nall = nlocal + atom->nghost, some = listed_bits;
   const ParticleRows fluid = data;
   auto all_of = [&](int n) {
     int found = 0;

@@ -18,7 +18,7 @@
 
 #include "pointers.h"
 #include "sph_dissipation_arrays_kokkos.h"
-#include "sph_dissipation_boundary.h"
+#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_sums_kokkos.h"
 #include "sph_dissipation_wall_terms.h"
 
@@ -28,8 +28,6 @@ namespace LAMMPS_NS {
 class Pair;
 
 namespace SPHDissipation {
-  class BoundaryStage;
-
   // The boundary particles, owned ones first, and their values, by the number in this list unless noted
 
   template <class DeviceType> struct BoundaryDataKokkos {
@@ -264,16 +262,23 @@ namespace SPHDissipation {
 
   template <class DeviceType> class BoundaryStageKokkos : protected Pointers {
    public:
-    BoundaryStageKokkos(class LAMMPS *lmp, Pair *pair, BoundaryStage &stage) :
-        Pointers(lmp), pair(pair), stage(stage)
+    BoundaryStageKokkos(class LAMMPS *lmp, Pair *pair, DeviceSpace<DeviceType> &space,
+                        BoundaryStage &stage) :
+        Pointers(lmp),
+        pair(pair), space(space), stage(stage)
     {
     }
 
-    // After the pressures, before pass 2: set the values of owned boundary particles; the pair style sends them to ghosts
-    void run(LoopDataKokkos<DeviceType> &, int inum);
+    // After the pressures, before pass 2: set the values of all boundary particles, and the excess, for the heat in pass 2
+    void run();
 
-    // After run(), when ghosts have the values of their owners: set the excess, for the heat in pass 2
-    void set_excess(LoopDataKokkos<DeviceType> &);
+    // For ViscousStage, see BoundaryStage; with viscous, no boundary on a device has symmetric friction
+
+    int bits() const { return stage.bits(); }
+    bool has_mean_pressure() const { return stage.has_mean_pressure(); }
+    void note_pressures();
+    void extend(bool increments);
+    void add_linear_friction() {}
 
     // After the conduction: add the heat of surfaces to the heat per time that particles get, as
     // BoundaryStage::add_surface_heat()
@@ -287,6 +292,7 @@ namespace SPHDissipation {
 
     // public, because CUDA requires this of functions with lambdas
 
+    void set_excess(LoopDataKokkos<DeviceType> &);
     void find_particles(const LoopDataKokkos<DeviceType> &);
     void end_friction(const LoopDataKokkos<DeviceType> &);
     void find_rows(const LoopDataKokkos<DeviceType> &, int inum);
@@ -298,10 +304,12 @@ namespace SPHDissipation {
     typedef Kokkos::RangePolicy<DeviceType> Range;
 
     Pair *pair;
+    DeviceSpace<DeviceType> &space;
     BoundaryStage &stage;
     BoundaryDataKokkos<DeviceType> boundary = {};
     std::vector<BoundaryKokkos<DeviceType> *> boundaries;
-    int bits = 0;                // of the groups of the boundary particles in the lists
+    Kokkos::View<int *, DeviceType> pushes;    // see BoundaryStage, by number
+    int listed_bits = 0;         // of the groups of the boundary particles in the lists
     bigint surface_step = -1;    // step of the normals of the surface
   };
 

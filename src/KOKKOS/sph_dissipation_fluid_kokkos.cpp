@@ -22,10 +22,10 @@
 #include "neighbor.h"
 #include "pair.h"
 #include "sph_dissipation_boundary_kokkos.h"
-#include "sph_dissipation_boundary_stage.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_integrate.h"
 #include "sph_dissipation_loops_kokkos.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_noise.h"
@@ -66,7 +66,8 @@ FluidKokkos<DeviceType>::FluidKokkos(LAMMPS *lmp, Pair *pair, bool spins) :
     density_device(lmp, space), limit_device(lmp, space), viscosity_device(lmp, space),
     pressure_device(lmp, space), state_device(lmp, space), flows_device(lmp, space),
     diffusion_device(lmp, space), shift_device(lmp, space),
-    boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, pair, *boundary))
+    boundary_device(new BoundaryStageKokkos<DeviceType>(lmp, pair, space, *boundary)),
+    viscous_device(lmp, space, *viscous, pressure_device, *boundary_device, *rigid)
 {
   atomKK = (AtomKokkos *) atom;
   engine->set_threads(threads.get());
@@ -207,6 +208,27 @@ template <class DeviceType> void FluidKokkos<DeviceType>::give_to_device() const
 
 /* ---------------------------------------------------------------------- */
 
+template <class DeviceType> OwnForces FluidKokkos<DeviceType>::forces_for_steps()
+{
+  return on_device ? viscous_device.own_forces() : Fluid::forces_for_steps();
+}
+
+/* ----------------------------------------------------------------------
+   Solve for the velocities.  The largest rate is that of the present densities, and found on the host.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::set_velocity(StepData &)
+{
+  if (neighbor->ago == 0 || viscous->has_old_rates()) {
+    atomKK->modified(pair->execution_space, SPH_RHO_MASK);
+    atomKK->sync(Host, ENERGY | V_MASK | ESPH_MASK | INERTIA_MASK);
+  }
+  find_rate();
+  viscous_device.run(pair->list, bound_device(), has_symmetric_matrix());
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> bool FluidKokkos<DeviceType>::has_own_forces() const
 {
   if (!on_device) return Fluid::has_own_forces();
@@ -301,7 +323,8 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
 }
 
 /* ----------------------------------------------------------------------
-   Replace the functions of the stages by those of the device.  On the device, "pairs" adds the forces and the repulsion.
+   Replace the functions of the stages by those of the device.  On the device, "pairs" adds the repulsion and, unless large
+   viscosities keep the forces, also the forces to the arrays of LAMMPS.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
@@ -324,7 +347,24 @@ template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
        [this](StepData &step) {
          step.nbeyond = pressure_device.run(bound_device(), boundary->bits());
        }},
-      {"walls", call(&Own::set_boundary)},
+      {"kept viscosities",
+       [this](StepData &) {
+         viscosity_device.keep();
+       }},
+      {"guess",
+       [this](StepData &step) {
+         space.prepare();
+         viscous_device.begin(step.not_fluid);
+       }},
+      {"velocities", call(&Own::set_velocity)},
+      {"forces",
+       [this](StepData &) {
+         space.add_forces();
+       }},
+      {"walls",
+       [this](StepData &) {
+         boundary_device->run();
+       }},
       {"numbers",
        [this](StepData &) {
          noise->begin_step(boundary->bits());
@@ -340,10 +380,12 @@ template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
        }}};
   Fluid::list_stages();
   if (!on_device) return;
+  const bool keeps = viscous->active();
+  space.keep_forces(keeps);
   stages.erase(std::remove_if(stages.begin(), stages.end(),
-                              [](const ListedStage &one) {
-                                return !strcmp(one.name, "forces") ||
-                                    !strcmp(one.name, "repulsion");
+                              [keeps](const ListedStage &one) {
+                                return (!strcmp(one.name, "forces") && (one.trial || !keeps)) ||
+                                    !strcmp(one.name, "repulsion") || !strcmp(one.name, "totals");
                               }),
                stages.end());
   for (ListedStage &one : stages) one.run = own.at(one.name);
@@ -388,7 +430,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_viscosities(StepDa
   space.for_each(
       "sph:no_pressure", nall,
       KOKKOS_LAMBDA(int i) { rows.particle[i].g = rows.zeta_term[i] = 0.0; });
-  set_boundary(step);
+  boundary_device->run();
   viscosity_device.run(boundary->bits());
   const VectorField vest = space.vest();
   space.for_each(
@@ -397,25 +439,6 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_viscosities(StepDa
         for (int d = 0; d < 3; d++) rows.particle[i].u[d] = vest.at(i, d);
       });
   set_reference_volume(step);
-}
-
-/* ----------------------------------------------------------------------
-   Set the values of boundary particles, and send them to ghosts.  The message is redundant for ghosts of the fluid.
-------------------------------------------------------------------------- */
-
-template <class DeviceType> void FluidKokkos<DeviceType>::set_boundary(StepData &)
-{
-  boundary_device->run(*space.data, pair->list->inum);
-  std::vector<Field> fields = {
-      field(space.data->particle, space.data->particle->u, 5),    // u, vol and g
-      {space.data->zeta_term, 1, 1}};
-  if (space.data->spin) fields.push_back(field(space.data->spin, space.data->spin->w, 3));
-  FlowRow *const heat = space.data->flow[HEAT_FLOW];
-  if (boundary->conducts()) fields.push_back(field(heat, &heat->vol, 4));
-  if (boundary_device->particles().occupied.extent(0))
-    fields.push_back({boundary_device->particles().occupied.data(), 1, 1});
-  space.forward(fields);
-  boundary_device->set_excess(*space.data);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -488,24 +511,17 @@ void FluidKokkos<DeviceType>::run_noise(const StepData &step, int n, const Pairs
 template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &step)
 {
   const int n = pair->list->inum;
-
+  space.sum_forces(step.tally);
   with_kernel(model->choice.kernel, [&](auto kernel) {
-    with_form(space.data->par.terms(), [&](auto form) {
-      typedef decltype(kernel) K;
-      typedef decltype(form) Form;
-      if (space.data->par.bulk == Bulk::VOLUME)
-        space.run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, true>{*space.data},
-                       step.tally);
-      else
-        space.run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*space.data},
-                       step.tally);
-      if (step.noise.pairs.data)
-        run_noise<K, Form>(step, n, on_device::AllPairsKokkos<DeviceType>());
-    });
+    typedef decltype(kernel) K;
+    if (step.noise.pairs.data)
+      with_form(space.data->par.terms(), [&](auto form) {
+        run_noise<K, decltype(form)>(step, n, on_device::AllPairsKokkos<DeviceType>());
+      });
     if (boundary_device->particles().occupied.extent(0))
       space.run_loop("sph:repulsion", boundary_device->particles().size(),
-                     RepulsionKokkos<DeviceType, decltype(kernel)>{
-                         *space.data, boundary_device->particles(), boundary->thermal_stiffness()},
+                     RepulsionKokkos<DeviceType, K>{*space.data, boundary_device->particles(),
+                                                    boundary->thermal_stiffness()},
                      step.tally);
   });
   if (model->choice.thermal && space.data->par.drag) {
@@ -658,8 +674,8 @@ double FluidKokkos<DeviceType>::tension_energy(double *each_atom, int groupbit) 
 template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 {
   return Fluid::memory_usage() + space.memory_usage() + boundary_device->memory_usage() +
-      limit_device.memory_usage() + shift_device.memory_usage() + diffusion_device.memory_usage() +
-      bytes_of(tension);
+      limit_device.memory_usage() + viscous_device.memory_usage() + shift_device.memory_usage() +
+      diffusion_device.memory_usage() + bytes_of(tension);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -18,7 +18,7 @@
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_noise_data.h"
 #include "sph_dissipation_space_kokkos.h"
-#include "sph_dissipation_stages.h"
+#include "sph_dissipation_viscous.h"
 
 #include <vector>
 
@@ -32,8 +32,8 @@ namespace SPHDissipation {
 
   // Fields that tasks of the host change
 
-  constexpr uint64_t FLUID_SET_ON_HOST = RMASS_MASK | STATES_MASK | OFFSET_MASK | ESPH_MASK |
-      DESPH_BEFORE_MASK | FLUID_DERIVED;
+  constexpr uint64_t FLUID_SET_ON_HOST =
+      RMASS_MASK | STATES_MASK | OFFSET_MASK | ESPH_MASK | DESPH_BEFORE_MASK | FLUID_DERIVED;
 
   // The fluid on the device, with full neighbor lists; or on the host, with the loops of the CPU style, half lists, and the
   // threads of KOKKOS.  Reports at the start of a run are made on the host.
@@ -53,6 +53,8 @@ namespace SPHDissipation {
     bigint compute(PairTally *) override;
     double elastic_energy(Moment) override;
     void heating(double *, double *) const override;
+    OwnForces forces_for_steps() override;
+    bool computes_on_device() const override { return on_device; }
     double received_heat(int groupbit) const override;
     void get_from_device(uint64_t fields) const override;
     void give_to_device() const override;
@@ -63,7 +65,7 @@ namespace SPHDissipation {
     void sum_density(StepData &);
     void set_reference_volume(StepData &);
     void set_viscosities(StepData &);
-    void set_boundary(StepData &);
+    void set_velocity(StepData &);
     void set_noise(StepData &);
     void sum_forces(StepData &);
     void add_wall_friction(StepData &);
@@ -105,6 +107,7 @@ namespace SPHDissipation {
     double noise_factor = 0.0;                     // 2 kT/dt
     Kokkos::View<double *, DeviceType> tension;    // energies of owned particles in the last forces
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
+    ViscousStage<Space> viscous_device;
 
     bool has_own_forces() const override;
     double wall_energy(double *) const override;

@@ -61,8 +61,9 @@ namespace SPHDissipation {
     Kokkos::View<double *[NCHANNEL], DeviceType> heat;    // of owned particles
     int typed;    // 0: the coefficients of all pairs are the same, and pair[] is read for types 1 alone
 
-    int not_fluid;                          // bits of the groups whose particles have no drag
-    typename AT::t_kkacc_1d_3 f, torque;    // torque: micropolar
+    int not_fluid;    // bits of the groups whose particles have no drag
+    bool linear;      // friction at increments of the velocities: the drag is relative to rest
+    typename AT::t_kkacc_1d_3 f, torque;                                 // torque: micropolar
     Kokkos::View<double *[6], Kokkos::LayoutRight, DeviceType> vatom;    // empty: not requested
   };
 
@@ -264,7 +265,8 @@ namespace SPHDissipation {
       heat[BULK_HEAT] =
           bulk_heat(data.par.bulk, zeta_term_i, pi.vol, weight_i, data.density[i].cdot, divergence);
       if (data.par.drag && !(data.mask[i] & data.not_fluid))
-        Channels::add_drag(data.types[data.type[i]].keywords.a, pi.vol, pi.u, false, total_f, heat);
+        Channels::add_drag(data.types[data.type[i]].keywords.a, pi.vol, pi.u, data.linear, total_f,
+                           heat);
       for (int d = 0; d < 3; d++) data.f(i, d) += total_f[d];
       if constexpr (Form::SPINS)
         for (int d = 0; d < 3; d++) data.torque(i, d) += total_t[d];

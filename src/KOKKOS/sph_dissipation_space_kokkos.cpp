@@ -19,6 +19,7 @@
 #include "kokkos.h"
 #include "neigh_list_kokkos.h"
 #include "pair.h"
+#include "sph_dissipation_boundary_kokkos.h"
 #include "sph_dissipation_engine.h"
 #include "sph_dissipation_sums_kokkos.h"
 
@@ -46,23 +47,30 @@ template <class DeviceType> uint64_t DeviceSpace<DeviceType>::read_mask() const
 {
   const Constants &par = engine.constants();
   return FLUID_READ | (par.thermal ? TAG_MASK : EMPTY_MASK) |
+      (keeps_forces ? V_MASK | OMEGA_MASK | INERTIA_MASK : EMPTY_MASK) |
       ((par.continuity || par.by_rate) ? CONTINUITY_MASK : EMPTY_MASK);
 }
 
 template <class DeviceType> uint64_t DeviceSpace<DeviceType>::modified_mask() const
 {
   const Constants &par = engine.constants();
-  return (par.continuity || par.by_rate) ? FLUID_MODIFIED | CONTINUITY_MASK : FLUID_MODIFIED;
+  return FLUID_MODIFIED | (keeps_forces ? VEST_MASK | OMEGAEST_MASK : EMPTY_MASK) |
+      ((par.continuity || par.by_rate) ? CONTINUITY_MASK : EMPTY_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class DeviceType> void DeviceSpace<DeviceType>::begin(int not_fluid)
+template <class DeviceType> void DeviceSpace<DeviceType>::prepare()
 {
   copy_coeffs();
   grow();
   // also sync modified fields: LAMMPS communicates on the host if MPI cannot use the memory of the GPU
   atomKK->sync(pair->execution_space, read_mask() | modified_mask());
+}
+
+template <class DeviceType> void DeviceSpace<DeviceType>::begin(int not_fluid)
+{
+  prepare();
   set_particles(not_fluid);
 }
 
@@ -84,6 +92,8 @@ template <class DeviceType> void DeviceSpace<DeviceType>::grow()
   data->viscosity = data->par.by_rate ? reach(viscosity, "sph:viscosity", n) : nullptr;
   SPHDissipation::reach(data->heat, "sph:heat", n);
   data->weight = reach(weight, "sph:weight", data->each ? n : 1);
+  if (keeps_forces) SPHDissipation::reach(own_force, "sph:own_force", n);
+  if (keeps_forces && engine.has_spin()) SPHDissipation::reach(own_torque, "sph:own_torque", n);
 }
 
 /* ----------------------------------------------------------------------
@@ -164,11 +174,13 @@ template <class DeviceType> void DeviceSpace<DeviceType>::set_particles(int not_
   data->not_fluid = not_fluid;
   data->body_bits = engine.body_bits;
   data->keeps_bodies = std::exchange(engine.keeps_bodies, false);
+  data->linear = false;
   data->f = atomKK->k_f.template view<DeviceType>();
+  data->torque = atomKK->k_torque.template view<DeviceType>();
+  if (keeps_forces) clear_forces();
 
   auto x = atomKK->k_x.template view<DeviceType>();
   auto vest = avec.k_vest.template view<DeviceType>();
-  data->torque = atomKK->k_torque.template view<DeviceType>();
   auto omegaest = avec.k_omegaest.template view<DeviceType>();
   const ParticleRows rows = *data;
   Spin *const spins_of = data->spin;
@@ -234,10 +246,14 @@ template <class DeviceType> const int *DeviceSpace<DeviceType>::mask() const
   return atomKK->k_mask.template view<DeviceType>().data();
 }
 
-template <class DeviceType, class View> static VectorField field_of(View &array)
+template <class View> static VectorField field_of_view(const View &view)
 {
-  const auto on_device = array.template view<DeviceType>();
-  return {on_device.data(), on_device.stride(0), on_device.stride(1)};
+  return {view.data(), view.stride(0), view.stride(1)};
+}
+
+template <class DeviceType, class Array> static VectorField field_of(Array &array)
+{
+  return field_of_view(array.template view<DeviceType>());
 }
 
 template <class DeviceType> VectorField DeviceSpace<DeviceType>::x() const
@@ -253,6 +269,36 @@ template <class DeviceType> VectorField DeviceSpace<DeviceType>::v() const
 template <class DeviceType> VectorField DeviceSpace<DeviceType>::vest() const
 {
   return field_of<DeviceType>(AtomVecSPHBulkKokkos::of(atom).k_vest);
+}
+
+template <class DeviceType> VectorField DeviceSpace<DeviceType>::omega() const
+{
+  return field_of<DeviceType>(atomKK->k_omega);
+}
+
+template <class DeviceType> VectorField DeviceSpace<DeviceType>::omegaest() const
+{
+  return field_of<DeviceType>(AtomVecSPHBulkKokkos::of(atom).k_omegaest);
+}
+
+template <class DeviceType> const double *DeviceSpace<DeviceType>::inertia() const
+{
+  return AtomVecSPHBulkKokkos::of(atom).k_inertia.template view<DeviceType>().data();
+}
+
+template <class DeviceType> VectorField DeviceSpace<DeviceType>::forces() const
+{
+  return field_of_view(own_force);
+}
+
+template <class DeviceType> VectorField DeviceSpace<DeviceType>::torques() const
+{
+  return field_of_view(own_torque);
+}
+
+template <class DeviceType> Spin *DeviceSpace<DeviceType>::spins() const
+{
+  return data->spin;
 }
 
 template <class DeviceType> double *DeviceSpace<DeviceType>::energies() const
@@ -276,6 +322,62 @@ template <class DeviceType> void DeviceSpace<DeviceType>::set_shear_rates(int no
   sum_pairs("sph:shear_rates", ShearRateSum{not_fluid});
 }
 
+template <class DeviceType> void DeviceSpace<DeviceType>::sum_rates()
+{
+  sum_pairs("sph:rates", RateSum());
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void DeviceSpace<DeviceType>::sum_forces(bool tally)
+{
+  const int n = pair->list->inum;
+  with_kernel(data->par.kernel, [&](auto kernel) {
+    typedef decltype(kernel) K;
+    with_form(data->par.terms(), [&](auto form) {
+      typedef decltype(form) Form;
+      if (data->par.bulk == Bulk::VOLUME)
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, true>{*data}, tally);
+      else
+        run_loop("sph:forces", n, ForceLoopKokkos<DeviceType, K, Form, false>{*data}, tally);
+    });
+  });
+}
+
+template <class DeviceType> void DeviceSpace<DeviceType>::sum_friction(NeighList *, int not_fluid)
+{
+  clear_forces();
+  data->linear = true;
+  data->excess = nullptr;
+  data->not_fluid = not_fluid;
+  sum_forces(false);
+}
+
+template <class DeviceType> void DeviceSpace<DeviceType>::clear_forces()
+{
+  Kokkos::deep_copy(own_force, 0.0);
+  data->f = own_force;
+  if (!engine.has_spin()) return;
+  Kokkos::deep_copy(own_torque, 0.0);
+  data->torque = own_torque;
+}
+
+template <class DeviceType> void DeviceSpace<DeviceType>::add_forces() const
+{
+  const bool spins = engine.has_spin();
+  const VectorField own = forces(), own_turn = torques(), f = field_of<DeviceType>(atomKK->k_f),
+                    torque = field_of<DeviceType>(atomKK->k_torque);
+  for_each(
+      "sph:add_forces", atom->nlocal, KOKKOS_LAMBDA(int i) {
+        for (int d = 0; d < 3; d++) {
+          f.at(i, d) += own.at(i, d);
+          if (spins) torque.at(i, d) += own_turn.at(i, d);
+        }
+      });
+}
+
+/* ---------------------------------------------------------------------- */
+
 template <class DeviceType> double *DeviceSpace<DeviceType>::sum_flow(int k)
 {
   flows_known = true;
@@ -295,7 +397,7 @@ template <class DeviceType> double DeviceSpace<DeviceType>::memory_usage() const
   for (int k = 0; k < Flows::NUMBER; k++) of_flows += bytes_of(flow[k], flow_rates[k]);
   return of_flows +
       bytes_of(particle, density_sum, spin, zeta_term, state_pressure, weight, viscosity,
-               data->heat);
+               data->heat, own_force, own_torque);
 }
 
 /* ---------------------------------------------------------------------- */

@@ -27,6 +27,7 @@ class Pair;
 
 namespace SPHDissipation {
   template <class DeviceType> struct LoopDataKokkos;
+  template <class DeviceType> class BoundaryStageKokkos;
 
   // Fields of particles that the forces read and modify; the atom style ignores fields that it does not have
 
@@ -42,13 +43,20 @@ namespace SPHDissipation {
   template <class DeviceType> class DeviceSpace : protected Pointers {
    public:
     template <class T> using Array = Kokkos::View<T *, DeviceType>;
+    typedef BoundaryStageKokkos<DeviceType> Boundaries;
 
     DeviceSpace(class LAMMPS *, Pair *, Engine &, Exchange &);
     ~DeviceSpace() override;
 
-    // Begin a force computation: copy the coefficients if they are new, set the input of pass 1 of owned and ghost atoms.
-    // not_fluid = bits of the groups of walls
+    // Begin a force computation: prepare() copies the coefficients if they are new, and the fields of particles; begin() also
+    // sets the input of pass 1 of owned and ghost atoms.  not_fluid = bits of the groups of walls
+    void prepare();
     void begin(int not_fluid);
+
+    // With large viscosities, pass 2 adds to forces() and torques(); add_forces(): add these to the arrays of LAMMPS
+    void keep_forces(bool keep) { keeps_forces = keep; }
+    void add_forces() const;
+    void sum_forces(bool tally);    // pass 2
     void copy_coeffs();
     void forget_coeffs() { copied = false; }
     uint64_t read_mask() const;    // fields that the forces read, and modify
@@ -62,8 +70,10 @@ namespace SPHDissipation {
     const ParticleRows &rows() const;
     StateRows states();
     const int *mask() const;
-    VectorField x() const, v() const, vest() const;
+    VectorField x() const, v() const, vest() const, omega() const, omegaest() const;
+    const double *inertia() const;
     double *energies() const;
+    Spin *spins() const;
     template <class T> static T *reach(Array<T> &array, const char *name, std::size_t n)
     {
       return SPHDissipation::reach(array, name, static_cast<int>(n));
@@ -88,6 +98,10 @@ namespace SPHDissipation {
     template <class Sum> void sum_pairs(const char *name, const Sum &);
     void set_shear_rates(int not_fluid);
     double *sum_flow(int k);
+    void sum_rates();
+    void sum_friction(NeighList *, int not_fluid);
+    void collect_forces() {}
+    VectorField forces() const, torques() const;
     double *flow_rate(int k) { return flow_rates[k].data(); }
     void forget_flows() { flows_known = false; }
 
@@ -104,6 +118,7 @@ namespace SPHDissipation {
     Pair *const pair;
     Engine &engine;
     Exchange &exchange;
+    bool keeps_forces = false;
     bool copied = false;         // coefficients on the device are those of the model
     bool flows_known = false;    // rates of the flows, from this run
 
@@ -117,8 +132,10 @@ namespace SPHDissipation {
     Array<double> zeta_term, state_pressure, weight, viscosity;
     Array<FlowRow> flow[Flows::NUMBER];
     Array<double> flow_rates[Flows::NUMBER];
+    typename ArrayTypes<DeviceType>::t_kkacc_1d_3 own_force, own_torque;
 
     void grow();
+    void clear_forces();
     void set_states();
   };
 

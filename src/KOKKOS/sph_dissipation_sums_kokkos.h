@@ -79,6 +79,30 @@ namespace SPHDissipation {
       for (int k = 0; k < 6; k++) pair->vatom[i][k] += from(i, k);
   }
 
+  // Rates of densities, as the loop of the CPU styles for the rates alone
+
+  struct RateSum {
+    typedef double Row;
+    static constexpr bool SHAPE = false;
+
+    SPH_FUNCTION double shared(const ParticleRows &of, int i, int j, const PairPlace &pair) const
+    {
+      const Particle &a = of.particle[i], &b = of.particle[j];
+      double approach = 0.0;
+      for (int d = 0; d < 3; d++) approach += pair.r[d] * (a.u[d] - b.u[d]);
+      return pair.slope * approach;
+    }
+    SPH_FUNCTION void add(const ParticleRows &of, int, int j, const PairPlace &, double both,
+                          double &sum) const
+    {
+      sum -= of.weight[j * of.each] * both;
+    }
+    SPH_FUNCTION void finish(const ParticleRows &of, int i, double sum) const
+    {
+      of.density[i].cdot = sum;
+    }
+  };
+
   // A flow, as flow_loop() of the CPU styles
 
   template <class DeviceType, class K> struct FlowLoopKokkos {

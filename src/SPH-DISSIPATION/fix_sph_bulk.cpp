@@ -117,19 +117,6 @@ struct Particles {
   }
 };
 
-// Return, before half a kick, the heat that conserves the sum of kinetic and internal energy exactly.  The heat of the pair
-// style is minus the work of its forces own at the velocity in the friction, acting.  Over half a kick, these forces do work
-// at the mean velocity of the kick.  The result is the difference, energy; for torques likewise, with spins.
-
-double rest_of_heat(const TimeStep &step, const double *v, const double *acting, const double *f,
-                    const double *own, double mass_inv)
-{
-  double power = 0.0;
-  for (int d = 0; d < 3; d++)
-    power += own[d] * (acting[d] - v[d] - 0.5 * step.dtf * mass_inv * f[d]);
-  return 0.5 * step.dtv * power;
-}
-
 }    // namespace
 
 /* ---------------------------------------------------------------------- */
@@ -148,7 +135,7 @@ FixSPHBulk::FixSPHBulk(LAMMPS *lmp, int narg, char **arg) :
   restart_global = 1;
   if (!has_viscous_stage()) return;
   vector_flag = 1;
-  size_vector = 2 * StiffStage::NSTATISTICS;
+  size_vector = 2 * StiffScheme::NSTATISTICS;
   extvector = 0;
   global_freq = 1;
 }
@@ -359,7 +346,7 @@ double FixSPHBulk::compute_vector(int n)
 {
   const auto *now = find_fluid(force);    // a command may have replaced the fluid
   if (!now) return 0.0;
-  constexpr int each = StiffStage::NSTATISTICS;
+  constexpr int each = StiffScheme::NSTATISTICS;
   return (n < each) ? now->viscous->statistics[n] : now->temperature->statistics[n - each];
 }
 
@@ -572,9 +559,8 @@ void FixSPHBulk::arrive(int i)
 {
   fields().desph_before[i] = fields().vol_rate[i] = fields().vol_rate_before[i] = 0.0;
   if (inertia_flag) set_inertia_of(i, fields().inertia[i]);
-  if (!has_viscous_stage()) return;
-  fluid->viscous->carry_force(i, time_step().keep);
-  if (spins) fluid->viscous->carry_torque(i, fields().inertia, fields().omegaest);
+  if (has_viscous_stage() && fluid->has_type(atom->type[i]))
+    fluid->forces_for_steps().keep(time_step(), Particles(atom, fields()), i);
 }
 
 /* ----------------------------------------------------------------------
@@ -735,8 +721,7 @@ void FixSPHBulk::begin_step()
 void FixSPHBulk::integrate(Half half)
 {
   const int nlocal = nlocal_group();
-  const bool carries = half == BEGIN && has_viscous_stage();
-  if (carries) fluid->viscous->begin_carrying();
+  const OwnForces own = exact ? fluid->forces_for_steps() : OwnForces();
   const bool changes_volume = diffuses && half == BEGIN;
   VolumeStep volume = {};
   if (changes_volume) {
@@ -756,32 +741,15 @@ void FixSPHBulk::integrate(Half half)
     const Fields &kept = fields();
     const Particles particles(atom, kept);
     const TimeStep step = time_step();
-    const ForceSum *const forces = exact ? fluid->own_forces() : nullptr;
     for (int i = from; i < to; i++) {
       if (!(atom->mask[i] & groupbit)) continue;
-      double rest[2] = {0.0, 0.0};
-      if (exact) {
-        const double mass = atom->rmass[i];
-        rest[0] =
-            rest_of_heat(step, atom->v[i], atom->vest[i], atom->f[i], forces[i].f, 1.0 / mass);
-        if (spins)
-          rest[1] =
-              rest_of_heat(step, atom->omega[i], kept.omegaest[i], atom->torque[i],
-                           fluid->own_torque(i), TimeStep::inverse_inertia(mass, kept.inertia[i]));
-      }
-      if (half == BEGIN)
+      if (exact)
+        own.step(step, particles, i, half == BEGIN, fluid->has_type(atom->type[i]));
+      else if (half == BEGIN)
         step.begin(particles, i);
       else
         step.end(particles, i);
       if (changes_volume) volume.begin(i);
-      if (exact)
-        for (const double heat : rest) {
-          atom->esph[i] += heat;
-          if (half == END) kept.desph_before[i] += heat;
-        }
-      if (!carries) continue;
-      fluid->viscous->carry_force(i, step.keep);
-      if (spins) fluid->viscous->carry_torque(i, kept.inertia, kept.omegaest);
     }
   });
 }

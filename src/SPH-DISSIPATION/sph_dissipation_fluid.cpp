@@ -28,6 +28,7 @@
 #include "sph_dissipation_eos.h"
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_fields.h"
+#include "sph_dissipation_integrate.h"
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_neighbors.h"
 #include "sph_dissipation_noise.h"
@@ -71,15 +72,17 @@ Fluid::Fluid(LAMMPS *lmp, Pair *pair, bool spins) :
     flows(new FlowStage<HostSpace>(lmp, *host)),
     diffusion(new DiffusionStage<HostSpace>(lmp, *host)),
     pair_energies(new PairEnergyStage(lmp, *engine, *exchange)),
-    open(new OpenStage(lmp, *engine, *exchange)),
+    aside(new ForcesAside(lmp, *engine, *exchange)), open(new OpenStage(lmp, *engine, *exchange)),
     boundary(new BoundaryStage(lmp, *engine, *exchange, style)),
     contact(new ContactStage(lmp, *engine, *exchange, *boundary, style)),
     shift(new ShiftStage<HostSpace>(lmp, *host)),
-    noise(new NoiseStage(lmp, *engine, *exchange, model->clock)),
-    viscous(new ViscousStage(lmp, *engine, *exchange, *pressure, *boundary)),
-    temperature(new TemperatureStage(lmp, *engine, *exchange, *boundary)),
+    noise(new NoiseStage(lmp, *engine, *exchange, model->clock)), viscous(new StiffScheme(lmp, "")),
+    temperature(new StiffScheme(lmp, " in the conduction of heat")),
     stability(new Stability(lmp, *model, *engine, *boundary, *contact)),
-    log(new FluidReport(lmp, *engine, *exchange, style, *model, *boundary, *shift, *viscous))
+    log(new FluidReport(lmp, *engine, *exchange, style, *model, *boundary, *shift, *viscous)),
+    rigid(new RigidStage(lmp, *engine, *exchange, *boundary)),
+    velocities(new ViscousStage<HostSpace>(lmp, *host, *viscous, *pressure, *boundary, *rigid)),
+    stiff_heat(new TemperatureStage(lmp, *host, *temperature, *boundary))
 {
 }
 
@@ -389,17 +392,18 @@ void Fluid::list_stages()
   if (stiff) {
     trial = true;
     add(true, "guess", NOTHING, MOTION, [this, all_bits](StepData &) {
-      viscous->begin(all_bits, extrapolated_spin(), spins ? Fields::of(atom)->inertia : nullptr);
+      velocities->begin(all_bits);
+      aside->set();
     });
     add_passes(true);
     add(true, "velocities", SLOPES | FORCES, MOTION, call(*this, &Fluid::find_velocity));
   }
   if (stiff_heat && par.thermal_pressure) {
     trial = true;
-    add(true, "aside", NOTHING, NOTHING, call(*temperature, &StiffStage::set_aside));
+    add(true, "aside", NOTHING, NOTHING, call(*aside, &ForcesAside::set));
     add_passes(!viscous->active());
     add_temperatures(true);
-    add(true, "restored", NOTHING, NOTHING, call(*temperature, &StiffStage::restore));
+    add(true, "restored", NOTHING, NOTHING, call(*aside, &ForcesAside::restore));
   }
   trial = false;
   add_passes(!viscous->active());    // else the viscosities are those of the guess
@@ -417,7 +421,7 @@ void Fluid::list_stages()
         call(*diffusion, &DiffusionStage<HostSpace>::add_heat, all_bits, integrated));
   }
   add(zones, "ledger", SLOPES | PRESSURES, NOTHING, call(*open, &OpenStage::sum_impacts, list));
-  add(viscous->active() || warm, "totals", SUMS, SUMS, call(*forces, &ForceStage::collect));
+  add(viscous->active() || warm, "totals", SUMS, SUMS, call(*host, &HostSpace::collect_forces));
   add(warm, "work", SUMS | FORCES, FORCES, call(*noise, &NoiseStage::share_work));
   add(boundary->has_contact(), "contact", WALLS | FORCES, FORCES,
       call(*contact, &ContactStage::run));
@@ -627,10 +631,20 @@ double Fluid::received_heat(int groupbit) const
 
 void Fluid::find_velocity()
 {
+  find_rate();
+  velocities->run(neighbors(), bound(), has_symmetric_matrix());
+  aside->restore();
+}
+
+void Fluid::find_rate()
+{
   if (neighbor->ago == 0 || viscous->has_old_rates())
     viscous->set_rate(stability->table().fastest_rate());
-  const bool symmetric = !boundary->has_mean_pressure() && model->choice.bulk != Bulk::VOLUME;
-  viscous->run(neighbors(), bound(), symmetric);
+}
+
+bool Fluid::has_symmetric_matrix() const
+{
+  return !boundary->has_mean_pressure() && model->choice.bulk != Bulk::VOLUME;
 }
 
 /* ----------------------------------------------------------------------
@@ -641,7 +655,7 @@ void Fluid::find_temperature()
 {
   if (neighbor->ago == 0 || temperature->has_old_rates())
     temperature->set_rate(stability->table().fastest_heat_rate());
-  temperature->run(not_fluid());
+  stiff_heat->run(not_fluid());
 }
 
 /* ----------------------------------------------------------------------
@@ -810,9 +824,9 @@ const ForceSum *Fluid::own_forces() const
   return engine->force;
 }
 
-const double *Fluid::own_torque(int i) const
+OwnForces Fluid::forces_for_steps()
 {
-  return engine->side.torque(i);
+  return velocities->own_forces();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -942,6 +956,6 @@ double Fluid::memory_usage() const
   return engine->memory_usage() + search->memory_usage() + limit->memory_usage() +
       open->memory_usage() + boundary->memory_usage() + contact->memory_usage() +
       shift->memory_usage() + noise->memory_usage() + host->memory_usage() +
-      viscous->memory_usage() + temperature->memory_usage() + diffusion->memory_usage() +
-      pair_energies->memory_usage();
+      velocities->memory_usage() + stiff_heat->memory_usage() + aside->memory_usage() +
+      rigid->memory_usage() + diffusion->memory_usage() + pair_energies->memory_usage();
 }

@@ -52,10 +52,14 @@ namespace SPHDissipation {
   struct StepData;
   template <class Space> class PressureStage;
   template <class Space> class StateStage;
+  class ForcesAside;
+  struct OwnForces;
+  class RigidStage;
+  class StiffScheme;
   class TemperatureStage;
   class Threads;
   template <class Space> class ViscosityStage;
-  class ViscousStage;
+  template <class Space> class ViscousStage;
 
   // Particle fluid with independent shear and bulk viscosity.  Forces: pressure of an equation of state, viscous forces
   // between pairs, and a bulk force from the rate of change of the particle volume.  This class owns the settings, the pair
@@ -88,6 +92,7 @@ namespace SPHDissipation {
     const std::unique_ptr<FlowStage<HostSpace>> flows;
     const std::unique_ptr<DiffusionStage<HostSpace>> diffusion;
     const std::unique_ptr<PairEnergyStage> pair_energies;
+    const std::unique_ptr<ForcesAside> aside;
 
    public:
     // Stages that fixes call directly.  A boundary or an open zone stays registered until its fix is deleted, even if
@@ -98,8 +103,7 @@ namespace SPHDissipation {
     const std::unique_ptr<ContactStage> contact;
     const std::unique_ptr<ShiftStage<HostSpace>> shift;
     const std::unique_ptr<NoiseStage> noise;
-    const std::unique_ptr<ViscousStage> viscous;
-    const std::unique_ptr<TemperatureStage> temperature;    // implicit conduction
+    const std::unique_ptr<StiffScheme> viscous, temperature;    // of velocities, of conduction
 
     const std::unique_ptr<Stability> stability;    // largest stable time steps
     const std::unique_ptr<FluidReport> log;        // lines and warnings of the log
@@ -174,7 +178,8 @@ namespace SPHDissipation {
     static int number_of_heats();                        // numbers in power, one per channel
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
     const ForceSum *own_forces() const;
-    const double *own_torque(int i) const;
+    virtual OwnForces forces_for_steps();    // on the device if computes_on_device()
+    virtual bool computes_on_device() const { return false; }
 
     // Called by the integrator at the start of a run.  set_mean_density(): multiply the masses of a group by a factor for
     // each type, so that the mean density is rho0.  Then: find the volumes from the positions alone; check the particles as
@@ -210,6 +215,12 @@ namespace SPHDissipation {
     double support_radius() const { return support; }
 
    protected:
+    // Large viscosities and stiff conduction on the host
+
+    const std::unique_ptr<RigidStage> rigid;
+    const std::unique_ptr<ViscousStage<HostSpace>> velocities;
+    const std::unique_ptr<TemperatureStage> stiff_heat;
+
     int dim = 0;              // dimension of the kernel
     double support = 0.0;     // support radius rc
     bool stale = false;       // adopt() must derive the parameters from the coefficients
@@ -249,7 +260,9 @@ namespace SPHDissipation {
     bool
     at_rest() const;    // strains are zero: in a minimization, and in a rerun, which has no strains
     double **extrapolated_spin() const;    // nullptr without spins
-    int integrated = 0;                    // bits of the groups of its integrators
+    void find_rate();                      // of the fastest mode of the friction on lattices
+    bool has_symmetric_matrix() const;
+    int integrated = 0;    // bits of the groups of its integrators
 
    private:
     bool shifted = false;    // by shift_in_step(), in this step

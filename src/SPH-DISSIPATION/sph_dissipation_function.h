@@ -39,6 +39,14 @@
 #define SPH_INLINE SPH_HOST_INLINE
 #endif
 
+// Lambdas that a space runs for each particle: by value, since a device has its own memory
+
+#ifdef KOKKOS_LAMBDA
+#define SPH_LAMBDA KOKKOS_LAMBDA
+#else
+#define SPH_LAMBDA [=]
+#endif
+
 #include <cmath>
 
 namespace LAMMPS_NS {

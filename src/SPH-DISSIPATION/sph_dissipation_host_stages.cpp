@@ -16,6 +16,7 @@
 #include "math_extra.h"
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_shared_stages.h"
+#include "sph_dissipation_shared_viscous.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,21 @@ VectorField HostSpace::v() const
 VectorField HostSpace::vest() const
 {
   return field_of(atom->vest);
+}
+
+VectorField HostSpace::omega() const
+{
+  return field_of(atom->omega);
+}
+
+VectorField HostSpace::omegaest() const
+{
+  return field_of(Fields::of(atom)->omegaest);
+}
+
+const double *HostSpace::inertia() const
+{
+  return Fields::of(atom)->inertia;
 }
 
 double *HostSpace::energies() const
@@ -143,27 +159,37 @@ double *HostSpace::sum_flow(int k)
   return engine.flow_rate[k].data();
 }
 
-void HostSpace::forget_flows()
+void HostSpace::sum_rates()
 {
-  for (auto &rate : engine.flow_rate) rate.clear();
+  engine.accumulate_rates();
+  exchange.reverse({field(engine.density, &engine.density->cdot, 1)});
+}
+
+void HostSpace::sum_friction(NeighList *list, int not_fluid)
+{
+  engine.accumulate_friction(list, not_fluid);
+}
+
+void HostSpace::collect_forces()
+{
+  exchange.reverse({field(engine.force, engine.force->f, 3), engine.torques()});
+}
+
+VectorField HostSpace::forces() const
+{
+  return {engine.force->f, sizeof(ForceSum) / sizeof(double), 1};
+}
+
+VectorField HostSpace::torques() const
+{
+  return {engine.side.rows.data(), (std::size_t) engine.side.width, 1};
 }
 
 /* ---------------------------------------------------------------------- */
 
-template <class Space>
-void PressureStage<Space>::set_bulk_term(const double *bound, int not_fluid) const
+void HostSpace::forget_flows()
 {
-  Engine &engine = this->space.engine;
-  Atom *const atom = this->atom;
-  const ParticleRows &rows = engine.rows();
-  const bool by_density = (rows.par.bulk == Bulk::DENSITY);
-  engine.for_each(atom->nlocal + atom->nghost, [&](int i) {
-    Particle &particle = engine.particle[i];
-    engine.zeta_term[i] = particle.g = 0.0;
-    if (!rows.is_fluid(i, not_fluid)) return;
-    engine.zeta_term[i] = rows.zeta(i, bound) * engine.density[i].cdot / engine.density[i].c;
-    if (by_density) particle.g = pressure_term(engine.zeta_term[i], particle.vol, engine.weight(i));
-  });
+  for (auto &rate : engine.flow_rate) rate.clear();
 }
 
 /* ---------------------------------------------------------------------- */
@@ -303,13 +329,6 @@ void ForceStage::run(int not_fluid)
 
 /* ---------------------------------------------------------------------- */
 
-void ForceStage::collect()
-{
-  exchange.reverse({field(engine.force, engine.force->f, 3), engine.torques()});
-}
-
-/* ---------------------------------------------------------------------- */
-
 void ForceStage::add_drag_heat(int i, int not_fluid, double *channel) const
 {
   double force[3] = {0.0, 0.0, 0.0};
@@ -352,5 +371,7 @@ namespace SPHDissipation {
   template class FlowStage<HostSpace>;
   template class DiffusionStage<HostSpace>;
   template class ShiftStage<HostSpace>;
+  template class StiffStage<HostSpace>;
+  template class ViscousStage<HostSpace>;
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -16,6 +16,7 @@
 
 // Velocity Verlet of package SPH-DISSIPATION, for one particle.  No LAMMPS include.
 
+#include "sph_dissipation_rows.h"
 #include "sph_dissipation_states.h"
 
 namespace LAMMPS_NS {
@@ -111,6 +112,83 @@ namespace SPHDissipation {
     {
       rate_before = 0.5 * dtv * (rate - rate_before);
       energy += rate_before;
+    }
+  };
+
+  // Forces and torques of the pair style alone on owned particles, on the host or on a device: for steps in which motion and
+  // heat exchange energy exactly.  At the beginning of a step with large viscosities, vest and omegaest keep v + dt/m times
+  // the forces of other styles, for ViscousStage.
+
+  struct OwnForces {
+    VectorField force, torque;
+    double *
+        ahead =
+           nullptr,    // increment of vest, and of omegaest, at the beginning of a step; nullptr: nothing is kept
+        *ahead_spin = nullptr;
+    const int *mask = nullptr;
+    int groups = 0,
+        prescribed = 0;    // bits of groups of integrators, and of particles with known velocities
+
+    template <class Particles>
+    SPH_FUNCTION void step(const TimeStep &now, const Particles &p, int i, bool begins,
+                           bool of_fluid) const
+    {
+      const double mass_inv = 1.0 / p.rmass(i);
+      double rest[2] = {0.0, 0.0};
+      rest[0] = rest_of_heat(now, i, p.v, p.vest, p.f, force, mass_inv);
+      if (p.has_spins)
+        rest[1] = rest_of_heat(now, i, p.omega, p.omegaest, p.torque, torque,
+                               TimeStep::inverse_inertia(p.rmass(i), p.inertia(i)));
+      if (begins)
+        now.begin(p, i);
+      else
+        now.end(p, i);
+      for (const double heat : rest) {
+        p.esph(i) += heat;
+        if (!begins) p.desph_before(i) += heat;
+      }
+      if (begins && of_fluid) keep(now, p, i);
+    }
+
+    // Keep the forces of other styles on a particle of the fluid, unless its velocity is known
+
+    template <class Particles>
+    SPH_FUNCTION void keep(const TimeStep &now, const Particles &p, int i) const
+    {
+      if (!ahead || !(mask[i] & groups) || (mask[i] & prescribed)) return;
+      keep_one(now.dtv / p.rmass(i), i, p.f, force, p.v, now.keep, p.vest, ahead);
+      if (p.has_spins)
+        keep_one(now.dtv * TimeStep::inverse_inertia(p.rmass(i), p.inertia(i)), i, p.torque, torque,
+                 p.omega, 1.0, p.omegaest, ahead_spin);
+    }
+
+   private:
+    // Return, before half a kick, the heat that conserves the sum of kinetic and internal energy exactly.  The heat of the
+    // pair style is minus the work of its forces own at the velocity in the friction, acting.  Over half a kick, these forces
+    // do work at the mean velocity of the kick.  The result is the difference, energy; for torques likewise, with spins.
+
+    template <class Velocity, class Acting, class Force>
+    static SPH_FUNCTION double rest_of_heat(const TimeStep &now, int i, const Velocity &v,
+                                            const Acting &acting, const Force &f,
+                                            const VectorField &own, double mass_inv)
+    {
+      double power = 0.0;
+      for (int d = 0; d < 3; d++)
+        power += own.at(i, d) * (acting(i, d) - v(i, d) - 0.5 * now.dtf * mass_inv * f(i, d));
+      return 0.5 * now.dtv * power;
+    }
+
+    // Set increment to acting - part * v; then set acting to part * v + scale * (f - own): f - own = force of other styles
+
+    template <class Velocity, class Acting, class Force>
+    static SPH_FUNCTION void keep_one(double scale, int i, const Force &f, const VectorField &own,
+                                      const Velocity &v, double part, const Acting &acting,
+                                      double *increment)
+    {
+      for (int d = 0; d < 3; d++) {
+        increment[3 * i + d] = acting(i, d) - part * v(i, d);
+        acting(i, d) = part * v(i, d) + scale * (f(i, d) - own.at(i, d));
+      }
     }
   };
 

@@ -671,7 +671,9 @@ void FluidModel::set_step(double dt)
 
 bool FluidModel::conducts(int type) const
 {
-  return par->type[type].flow[HEAT_FLOW] > 0.0;
+  double of[Flows::NUMBER];
+  Flows::coefficients(TypeCoeffs(coeffs[type].keywords), coeffs[type].eos.rho0, of);
+  return of[HEAT_FLOW] > 0.0;
 }
 
 /* ---------------------------------------------------------------------- */

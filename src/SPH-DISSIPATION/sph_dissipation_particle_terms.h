@@ -441,6 +441,17 @@ namespace SPHDissipation {
       particle[i].g = pressure_term((par.bulk == Bulk::DENSITY) ? p + bulk_term : p, vol, w);
       if (i < nlocal) desph[i] += p * vol * rate;
     }
+
+    // The bulk term alone
+
+    SPH_FUNCTION void set_bulk_term(int i, const double *bound, int not_fluid) const
+    {
+      zeta_term[i] = particle[i].g = 0.0;
+      if (!is_fluid(i, not_fluid)) return;
+      zeta_term[i] = zeta(i, bound) * density[i].cdot / density[i].c;
+      if (par.bulk == Bulk::DENSITY)
+        particle[i].g = pressure_term(zeta_term[i], particle[i].vol, weight[i * each]);
+    }
   };
 
 }    // namespace SPHDissipation

@@ -26,7 +26,7 @@ namespace SPHDissipation {
   class CoeffTable;
   class FluidModel;
   class FluidState;
-  class ViscousStage;
+  class StiffScheme;
 
   // Lines of a fluid in the log, and warnings about the fluid at the start of a run and during a run.  All ranks call these
   // functions; pressure(i) = pressure of owned particle i; not_fluid = bits of the groups of walls and open zones.
@@ -35,7 +35,7 @@ namespace SPHDissipation {
    public:
     FluidReport(class LAMMPS *lmp, Engine &engine, Exchange &exchange, const std::string &style,
                 const FluidModel &model, const BoundaryStage &boundary,
-                const ShiftStage<HostSpace> &shift, const ViscousStage &viscous) :
+                const ShiftStage<HostSpace> &shift, const StiffScheme &viscous) :
         Stage(lmp, engine, exchange),
         style(style), model(model), boundary(boundary), shift(shift), viscous(viscous)
     {
@@ -64,7 +64,7 @@ namespace SPHDissipation {
     const FluidModel &model;
     const BoundaryStage &boundary;
     const ShiftStage<HostSpace> &shift;
-    const ViscousStage &viscous;
+    const StiffScheme &viscous;
 
     bool is_new = true;          // the log does not have the table of the present coefficients
     double warned_step = 0.0;    // time step of the last warning

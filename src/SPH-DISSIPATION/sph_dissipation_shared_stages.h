@@ -140,6 +140,15 @@ namespace SPHDissipation {
         });
   }
 
+  template <class Space>
+  void PressureStage<Space>::set_bulk_term(const double *bound, int not_fluid) const
+  {
+    const ParticleRows rows = this->space.rows();
+    this->space.for_each(
+        "sph:bulk_term", this->nall(),
+        SPH_LAMBDA(int i) { rows.set_bulk_term(i, bound, not_fluid); });
+  }
+
   /* ---------------------------------------------------------------------- */
 
   template <class Space>

@@ -21,14 +21,13 @@
 #ifndef LMP_SPH_DISSIPATION_SOLVERS_H
 #define LMP_SPH_DISSIPATION_SOLVERS_H
 
+#include "sph_dissipation_function.h"
+
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  using Unknowns = std::vector<double>;
 
   struct Solution {
     int applications;    // calls of apply()
@@ -38,37 +37,39 @@ namespace SPHDissipation {
     bool finite;        // all values are numbers
   };
 
-  // System has
-  //   mass, inverse_mass, x     Unknowns; x is 0 at the start and the solution at the end
-  //   residual                  Unknowns; b at the start, b - (M + h Gamma) x at the end
+  // System, on the host or on a device, has
+  //   mass, inverse_mass, x     arrays; x is 0 at the start and the solution at the end
+  //   residual                  array; b at the start, b - (M + h Gamma) x at the end
+  //   double *room(k)           returns array k < 6, for intermediate results
   //   void apply(in, out)       out = (M + h Gamma) in
+  //   void for_each(f)          calls f(k) for each unknown k of this processor
+  //   double total(f)           returns the sum of what f(k, sum) adds
   //   void sum(values, n)       over all processors, in place
   //   double scale_sq()         this processor's part of the square of the scale, in the norm of M; the largest
   //                             residual is tolerance times the scale, which may depend on x
-  //   Threads &team()           threads that share the work
 
   template <class System> class Krylov {
    public:
     Krylov(System &system, double tolerance, int most) :
-        system(system), threads(system.team()), tolerance(tolerance), most(most)
+        system(system), tolerance(tolerance), most(most), x(system.x.data()),
+        r(system.residual.data()), inverse_mass(system.inverse_mass.data())
     {
     }
 
     Solution conjugate_gradients()
     {
-      const auto n = static_cast<int>(system.x.size());
-      Unknowns &r = system.residual;
-      Unknowns p(n), ap(n);
+      double *const p = system.room(0), *const ap = system.room(1);
+      double *const x = this->x, *const r = this->r;
+      const double *const inverse_mass = this->inverse_mass;
       double before = 1.0;
       while (!finished()) {
-        const double beta = (result.applications == 0) ? 0.0 : rr / before;
-        threads.for_each(n, [&](int k) {
-          p[k] = system.inverse_mass[k] * r[k] + beta * p[k];
-        });
+        const bool first = (result.applications == 0);
+        const double beta = first ? 0.0 : rr / before;
+        system.for_each(
+            SPH_LAMBDA(int k) { p[k] = inverse_mass[k] * r[k] + (first ? 0.0 : beta * p[k]); });
         apply(p, ap);
-        double curvature = threads.template sum<double>(n, [&](int k, double &total) {
-          total += p[k] * ap[k];
-        });
+        double curvature =
+            system.total(SPH_LAMBDA(int k, double &total) { total += p[k] * ap[k]; });
         system.sum(&curvature, 1);
         result.finite = std::isfinite(curvature);
         if (!(curvature > 0.0)) {
@@ -76,8 +77,8 @@ namespace SPHDissipation {
           break;
         }
         const double alpha = rr / curvature;
-        threads.for_each(n, [&](int k) {
-          system.x[k] += alpha * p[k];
+        system.for_each(SPH_LAMBDA(int k) {
+          x[k] += alpha * p[k];
           r[k] -= alpha * ap[k];
         });
         before = rr;
@@ -87,10 +88,15 @@ namespace SPHDissipation {
 
     Solution bi_conjugate_gradients()
     {
-      const auto n = static_cast<int>(system.x.size());
-      Unknowns &r = system.residual;
-      Unknowns p(n), ap(n), q(n), aq(n), z(n);
-      Unknowns shadow = r;
+      double *const p = system.room(0), *const ap = system.room(1), *const q = system.room(2),
+                    *const aq = system.room(3), *const z = system.room(4),
+                    *const shadow = system.room(5);
+      double *const x = this->x, *const r = this->r;
+      const double *const inverse_mass = this->inverse_mass;
+      system.for_each(SPH_LAMBDA(int k) {
+        p[k] = ap[k] = 0.0;
+        shadow[k] = r[k];
+      });
       double rho = 1.0, alpha = 1.0, omega = 1.0;
       while (!finished()) {
         double next = product(shadow, r);
@@ -98,53 +104,54 @@ namespace SPHDissipation {
         if (next == 0.0) break;
         const double beta = (result.applications == 0) ? 0.0 : next / rho * alpha / omega;
         rho = next;
-        threads.for_each(n, [&](int k) {
+        system.for_each(SPH_LAMBDA(int k) {
           p[k] = r[k] + beta * (p[k] - omega * ap[k]);
-          z[k] = system.inverse_mass[k] * p[k];
+          z[k] = inverse_mass[k] * p[k];
         });
         apply(z, ap);
         double along = product(shadow, ap);
         system.sum(&along, 1);
         if (along == 0.0) break;
         alpha = rho / along;
-        threads.for_each(n, [&](int k) {
-          system.x[k] += alpha * z[k];
+        system.for_each(SPH_LAMBDA(int k) {
+          x[k] += alpha * z[k];
           r[k] -= alpha * ap[k];
         });
         if (finished()) break;
-        threads.for_each(n, [&](int k) {
-          q[k] = system.inverse_mass[k] * r[k];
-        });
+        system.for_each(SPH_LAMBDA(int k) { q[k] = inverse_mass[k] * r[k]; });
         apply(q, aq);
         double sums[2] = {product(aq, r), product(aq, aq)};
         system.sum(sums, 2);
         result.finite = std::isfinite(sums[0]) && std::isfinite(sums[1]);
         if (!(sums[1] > 0.0) || sums[0] == 0.0) break;
         omega = sums[0] / sums[1];
-        threads.for_each(n, [&](int k) {
-          system.x[k] += omega * q[k];
+        system.for_each(SPH_LAMBDA(int k) {
+          x[k] += omega * q[k];
           r[k] -= omega * aq[k];
         });
       }
       return result;
     }
 
+    // public, because CUDA requires this of functions with lambdas
+
+    double product(const double *a, const double *b)
+    {
+      const double *const inverse_mass = this->inverse_mass;
+      return system.total(
+          SPH_LAMBDA(int k, double &total) { total += a[k] * inverse_mass[k] * b[k]; });
+    }
+
    private:
     System &system;
-    decltype(std::declval<System &>().team()) threads;
     const double tolerance;
     const int most;
+    double *const x, *const r;
+    const double *const inverse_mass;
     Solution result = {0, 0.0, false, false, true};
     double rr = 0.0;    // square of the residual
 
-    double product(const Unknowns &a, const Unknowns &b)
-    {
-      return threads.template sum<double>(static_cast<int>(a.size()), [&](int k, double &total) {
-        total += a[k] * system.inverse_mass[k] * b[k];
-      });
-    }
-
-    void apply(const Unknowns &in, Unknowns &out)
+    void apply(const double *in, double *out)
     {
       system.apply(in, out);
       result.applications++;
@@ -152,7 +159,7 @@ namespace SPHDissipation {
 
     bool finished()
     {
-      double sums[2] = {product(system.residual, system.residual), system.scale_sq()};
+      double sums[2] = {product(r, r), system.scale_sq()};
       system.sum(sums, 2);
       rr = sums[0];
       result.finite = std::isfinite(sums[0]) && std::isfinite(sums[1]);

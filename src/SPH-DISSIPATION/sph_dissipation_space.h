@@ -19,16 +19,10 @@
 
 #include <vector>
 
-// Lambdas that a space runs for each particle: by value, since a device has its own memory
-
-#ifdef KOKKOS_LAMBDA
-#define SPH_LAMBDA KOKKOS_LAMBDA
-#else
-#define SPH_LAMBDA [=]
-#endif
-
 namespace LAMMPS_NS {
 namespace SPHDissipation {
+
+  class BoundaryStage;
 
   // Where a stage runs: its arrays, its loops, and its messages.  A stage that runs on the host and on a device is a template
   // over its space, HostSpace or DeviceSpace (src/KOKKOS); sph_dissipation_shared_stages.h has the functions of both.
@@ -36,6 +30,7 @@ namespace SPHDissipation {
   class HostSpace : protected Pointers {
    public:
     template <class T> using Array = std::vector<T>;
+    typedef BoundaryStage Boundaries;
 
     HostSpace(class LAMMPS *lmp, Engine &engine, Exchange &exchange) :
         Pointers(lmp), engine(engine), exchange(exchange)
@@ -50,7 +45,10 @@ namespace SPHDissipation {
     StateRows states() const;    // of the owned atoms as they are now
     const int *mask() const;
     VectorField x() const, v() const, vest() const;
+    VectorField omega() const, omegaest() const;    // empty without spins, as the next one
+    const double *inertia() const;
     double *energies() const;    // internal energies of atoms
+    Spin *spins() const { return engine.has_spin() ? engine.spin : nullptr; }    // of the loops
 
     // Give an array at least n entries; return the first one
     template <class T> static T *reach(Array<T> &array, const char *, std::size_t n)
@@ -81,6 +79,13 @@ namespace SPHDissipation {
     template <class Sum> void sum_pairs(const char *, const Sum &);
     void set_shear_rates(int not_fluid);
     double *sum_flow(int k);
+
+    // sum_rates(): the rates of densities at the velocities of the rows.  sum_friction(): the linear friction at these
+    // velocities.  forces(), torques(): of the last pass 2, or of the friction, on owned atoms after collect_forces()
+    void sum_rates();
+    void sum_friction(NeighList *, int not_fluid);
+    void collect_forces();
+    VectorField forces() const, torques() const;
     double *flow_rate(int k) { return engine.flow_rate[k].data(); }    // of the last sum_flow()
     void forget_flows();
 

@@ -231,10 +231,6 @@ namespace SPHDissipation {
 
     void run(int not_fluid);    // as above
 
-    // Add the force and torque of ghosts to the sums of their owners in the engine as well
-
-    void collect();
-
     // Get the heat of the dissipative forces, energy per time.  heat: for each owned and ghost atom, as summed on this rank
     // (with newton on, the sums of ghosts belong to their owners), or nullptr.  power: by channel, the sum on this rank.
     // Particles of the groups not_fluid do not count

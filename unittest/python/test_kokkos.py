@@ -208,7 +208,9 @@ def test_conduction_of_heat(lammps, style, ranks, options, viscous):
     extra = (f"variable K equal 0.4+0.02*step\nfix CHANGE all adapt 5 pair {style} conductivity 2 2 v_K\nvariable T atom 2.0+0.1*x\n")
     text = script(style, particles, model, 50, extra=extra).replace(f"fix FLUID all {style}", f"fix FLUID all {style} temperature v_T{viscous}")
     assert "temperature v_T" in text
-    compare(lammps, style, particles, text, ranks)
+    result = compare(lammps, style, particles, text, ranks)
+    warned = any("on the host" in line and "viscous with conduction of heat" in line for line in result.warnings)
+    assert warned == (DEVICE_LOOPS and bool(viscous)), result.warnings
 
 
 @pytest.mark.parametrize("ranks, diffusivity", [(1, 0.0), (2, 0.3), (4, 0.3)])
@@ -281,10 +283,13 @@ def test_particles_of_another_integrator(lammps, style):
     compare(lammps, style, particles, script(style, particles, fluids(style, 2), 50, fixes=fixes), ranks=2)
 
 
-def test_velocities_that_are_remapped(lammps, style):
+@pytest.mark.parametrize("keywords", ["", "viscous rkl2"])
+def test_velocities_that_are_remapped(lammps, style, keywords):
     particles = disordered(2, 16, seed=8, jitter=0.1, tilt=(0.0, 0.0, 0.0), spread=0.0)
-    text = script(style, particles, fluids(style, 2), 50, extra="fix SHEAR all deform 1 xy erate 0.2 remap v\n")
-    compare(lammps, style, particles, text.replace("read_data", "comm_modify vel yes\nread_data"), ranks=2)
+    text = script(style, particles, fluids(style, 2), 50, fixes=integrate(style, keywords), extra="fix SHEAR all deform 1 xy erate 0.2 remap v\n")
+    result = compare(lammps, style, particles, text.replace("read_data", "comm_modify vel yes\nread_data"), ranks=2)
+    warned = any("on the host" in line and "viscous with fix deform remap v" in line for line in result.warnings)
+    assert warned == (DEVICE_LOOPS and bool(keywords)), result.warnings
 
 
 # ---------------------------------------------------------------------------------------------
@@ -664,7 +669,7 @@ def test_drops_of_two_fluids_in_3d(lammps, style):
 
 @pytest.mark.parametrize("reason, options, keywords, extra", [
     ("keyword temp", "temp 0.01 1234 limit yes", "", ""),
-    ("viscous", "", "viscous implicit", ""),
+    ("viscous with temp and walls", "temp 0.01 1234", "viscous implicit", "fix WALL WALL sph/wall\n"),
     ("fix sph/wall", "", "", "suffix off\nfix WALL WALL sph/wall\n"),
 ])
 @pytest.mark.parametrize("newton", ["on", "off"])
@@ -760,7 +765,8 @@ def test_shift_on_the_host(lammps, style):
 def test_walls_on_the_host(lammps, style):
     """The walls of a pair style that computes on the host, as those of the CPU style."""
     particles = disordered(2, 20, seed=26, jitter=0.1, speed=0.2, spread=0.0)
-    text = with_walls(style, particles, "wheel", fluids(style, 2), 60)
+    model = fluids(style, 2).rstrip() + " cv 2.0 conductivity 0.7\n"
+    text = with_walls(style, particles, "wheel", model, 60)
     fixed = integrate(style, group="REST").splitlines()[0].rstrip()
     result = compare(lammps, style, particles, text.replace(fixed, f"{fixed} viscous rkl2"), ranks=2)
     warned = any("on the host" in line and "viscous" in line for line in result.warnings)
@@ -916,6 +922,97 @@ def test_tension(lammps, dim, ranks, newton, cohesion, tension):
     for name in own:
         assert relative(cpu[name] - kokkos[name], np.append(cpu[name], 1e-3)) < 1e-9, name
     assert not any("on the host" in line for line in result.warnings), result.warnings
+
+
+# ---------------------------------------------------------------------------------------------
+# large viscosities
+
+SCHEMES = ("rkl2", "implicit tolerance 1e-11", "implicit scheme sdirk2 tolerance 1e-11", "implicit scheme euler tolerance 1e-11")
+
+
+def stiff(style, dim, options="", keywords=""):
+    """A fluid with viscous rates of many times the inverse time step, in shear and bulk."""
+    return micropolar.fluid(dim, options, 150.0, 1600.0) if spinning(style) else fluid(dim, options, mu=150.0, kappa=1600.0, keywords=keywords)
+
+
+def same_on_the_device(lammps, style, particles, text, ranks=1, bound=1e-9):
+    result = compare(lammps, style, particles, text, ranks, bound)
+    assert not any("on the host" in line for line in result.warnings), result.warnings
+    return result
+
+
+@pytest.mark.parametrize("viscous", SCHEMES)
+@pytest.mark.parametrize("dim, ranks, newton", [(2, 1, "on"), (2, 2, "off"), (3, 4, "on")])
+def test_large_viscosities(lammps, style, viscous, dim, ranks, newton):
+    """Forces of another style, and another group of particles that only move; the number of stages or iterations."""
+    particles = disordered(dim, {2: 14, 3: 7}[dim], seed=43, jitter=0.1, speed=0.3, spread=0.0)
+    fixes = ("region LOW block INF 4.0 INF INF INF INF\ngroup LOW region LOW\ngroup REST subtract all LOW\nvelocity LOW set 0.3 0.0 0.0\n"
+             "fix MOVE LOW nve/noforce\n" + integrate(style, f"viscous {viscous}", "REST") + "fix PULL REST addforce 0.2 -0.3 0\n")
+    text = script(style, particles, stiff(style, dim), 40, newton, fixes=fixes).replace(" c_E\n", " c_E f_FLUID[1] f_FLUID[4]\n")
+    result = same_on_the_device(lammps, style, particles, text, ranks)
+    assert result.thermo()[-1]["f_FLUID[1]"][-1] >= (5 if "rkl2" in viscous else 3)
+
+
+@pytest.mark.parametrize("options, words", [
+    ("limit yes", ""), ("volume mass bulk volume", ""), ("density continuity", ""), ("bulk none", ""), ("eos ideal", ""), ("", "drag 0.4 0.2 -0.1 0"),
+    ("", "relax 8.0 0.01"), ("", "1 2 tension 0.7"), ("", "1 2 interdrag 3.0")])
+def test_large_viscosities_of_two_fluids(lammps, options, words):
+    """With unequal viscosities, and all terms of a fluid."""
+    style, rc = "sph/bulk", SUPPORT[2]
+    particles = disordered(2, 14, ntypes=2, jitter=0.1, speed=0.5, spread=0.0)
+    particles.esph[:] = 80.0
+    own = "" if words.startswith("1 2") else words
+    model = fluid(2, options, coeff=f"pair_coeff 1 1 1.0 10.0 40.0 90.0 {rc} {own}\npair_coeff 2 2 1.2 9.0 3.0 200.0 {rc}\n")
+    if words and not own:
+        model += f"pair_coeff {words}\n"
+    text = script(style, particles, model, 40, fixes=integrate(style, "viscous rkl2"))
+    if "relax" in words:
+        relax.write(particles, lammps.path("room.txt"), relax.strained(np.full((len(particles), 1), 0.01)), style)
+        text = text.replace("data.txt", "room.txt").replace(f"atom_style {style}", f"atom_style {style} relax 1")
+    same_on_the_device(lammps, style, particles, text, ranks=2)
+
+
+@pytest.mark.parametrize("viscous", SCHEMES[:3])
+@pytest.mark.parametrize("name, ranks, newton", [("channel", 1, "on"), ("slip", 2, "off"), ("wheel", 4, "on"), ("variable", 2, "on")])
+def test_large_viscosities_at_walls(lammps, style, viscous, name, ranks, newton):
+    particles = disordered(2, 20, seed=44, jitter=0.1, speed=0.2, spread=0.0)
+    text = with_walls(style, particles, name, stiff(style, 2), 40, newton)
+    fixed = integrate(style, group="REST").splitlines()[0]
+    compare_walls(lammps, style, particles, text.replace(fixed, f"{fixed} viscous {viscous}"), ranks)
+
+
+@pytest.mark.parametrize("walls", [False, True])
+@pytest.mark.parametrize("law", LAWS[:4])
+def test_large_viscosities_by_rate(lammps, law, walls):
+    """Several runs: the first forces of a run that continues have the viscosities that the particles keep."""
+    style = "sph/bulk"
+    particles = disordered(2, 20 if walls else 14, seed=45, jitter=0.1, speed=0.5, spread=0.0)
+    relax.write(particles, lammps.path("room.txt"), np.full((len(particles), 1), 0.3), style)
+    model = stiff(style, 2, keywords=law)
+    if walls:
+        text = with_walls(style, particles, "channel", model, 20)
+    else:
+        text = script(style, particles, model, 20)
+    fixed = integrate(style, group="REST" if walls else "all").splitlines()[0]
+    text = text.replace(fixed, f"{fixed} viscous rkl2").replace("data.txt", "room.txt").replace("atom_style sph/bulk", "atom_style sph/bulk thixotropy")
+    if "cv" in law:
+        text = text.replace("fix FLUID", "variable T atom 1.0+0.02*x\nfix FLUID").replace(" viscous", " temperature v_T viscous")
+    again = "run 0\nrun 15\nrun 5 pre no\n"
+    compared = compare_walls if walls else same_on_the_device
+    compared(lammps, style, particles, text + again, ranks=2)
+
+
+@pytest.mark.parametrize("writer", ["cpu", "kk"])
+def test_restart_with_large_viscosities(lammps, style, writer):
+    particles = disordered(2, 14, seed=11, jitter=0.1, spread=0.0)
+    write(lammps, style, particles)
+    fixes = integrate(style, "viscous rkl2")
+    frames = []
+    for first, then in (([], []), ([], SWITCHES) if writer == "cpu" else (SWITCHES, [])):
+        lammps(script(style, particles, stiff(style, 2), 30, fixes=fixes) + "write_restart file.restart\n", switches=first, ranks=2)
+        lammps(f"read_restart file.restart\n{fixes}{output(style, 20)}run 20\n", switches=then)
+        frames.append(lammps.frame("dump.txt"))
+    assert_same(style, *frames, 1e-9)
 
 
 # ---------------------------------------------------------------------------------------------
