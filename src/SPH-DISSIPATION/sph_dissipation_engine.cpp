@@ -370,7 +370,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
   data.numneigh = list->numneigh;
   data.firstneigh = list->firstneigh;
   data.type = atom->type;
-  if (!par->uniform || !par->cohesion.empty()) {    // spare particles have a type, too
+  if (!par->uniform) {    // spare particles have a type, too
     types.assign(atom->type, atom->type + nall);
     types.resize(nall + BLOCK, 1);
     data.type = types.data();
@@ -457,19 +457,6 @@ void Engine::accumulate_flow(int place, std::vector<double> &rate)
   rate.assign(nall + BLOCK, 0.0);
   scalar_sums.run(*threads, rate.data(), rate.size(), [&](int k, double *sum) {
     loop(part(k), flow[place].data(), sum);
-  });
-}
-
-/* ---------------------------------------------------------------------- */
-
-void Engine::accumulate_cohesion(const CohesionRow *rows)
-{
-  const CohesionKernel kernel(par->dim, par->support);
-  CohesionData cohesion = {rows, par->cohesion.data(), par->ntypes_1 == 2, {}, {}};
-  std::copy_n(kernel.support_inv, 2, cohesion.support_inv);
-  std::copy_n(kernel.slope_norm, 2, cohesion.slope_norm);
-  force_sums.run(*threads, force, atom->nlocal + atom->nghost + BLOCK, [&](int k, ForceSum *sum) {
-    loops->cohesion(part(k), cohesion, sum);
   });
 }
 
@@ -563,6 +550,7 @@ void Engine::run_forces(NeighList *list, const StepData &step, bool linear)
   data.viscosity = viscosity.data();
   data.excess = (linear || excess.empty()) ? nullptr : excess.data();
   data.random = nullptr;
+  data.cohesion = linear ? CohesionData() : cohesion();
   data.tally = step.tally;
   data.noise = noise.pairs.data;
   force_sums.begin(*threads);
@@ -600,6 +588,25 @@ void Engine::run_forces(NeighList *list, const StepData &step, bool linear)
 
 /* ---------------------------------------------------------------------- */
 
+CohesionData Engine::cohesion()
+{
+  if (par->cohesion.empty()) return {};
+  const int nall = atom->nlocal + atom->nghost;
+  strength.assign((std::size_t) nall + BLOCK, 0.0);
+  for_each(nall, [&](int i) {
+    const int type = atom->type[i];
+    if (par->type[type].other) return;
+    strength[i] = sqrt(par->cohesion[type * (par->ntypes_1 + 1)]) * rows().reference_volume(i);
+  });
+  const CohesionKernel kernel(par->dim, par->support);
+  CohesionData result = {strength.data(), {}, {}};
+  std::copy_n(kernel.support_inv, 2, result.support_inv);
+  std::copy_n(kernel.slope_norm, 2, result.slope_norm);
+  return result;
+}
+
+/* ---------------------------------------------------------------------- */
+
 void Engine::add_drag(int i, int not_fluid, bool linear, double *force_of, double *heat) const
 {
   const TypeParameters &type = par->type[atom->type[i]];
@@ -621,6 +628,7 @@ LoopData Engine::part(PairSubset &some) const
   part.count = some.count.data();
   part.neighbor = some.neighbor.data();
   part.slope = some.slope.data();
+  part.cohesion = {};
   part.tally = nullptr;
   return part;
 }
@@ -692,5 +700,5 @@ double Engine::memory_usage() const
       (double) imax * (sizeof(bigint) + sizeof(int)) + (double) pair_max * sizeof(int) +
       (double) slope_max * sizeof(double) +
       bytes(viscosity, excess, square, volume, energy, wall_energy, wall_energy_tags, types, flow,
-            flow_rate, random, side, density_sums, force_sums, side_sums, scalar_sums);
+            flow_rate, random, side, strength, density_sums, force_sums, side_sums, scalar_sums);
 }

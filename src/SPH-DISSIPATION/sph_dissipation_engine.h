@@ -61,6 +61,14 @@ namespace SPHDissipation {
 
   static_assert(NEIGHMASK < (1u << 29), "offsets of all neighbors have 32 bits");
 
+  // Cohesion in pass 2.  strength: A^(1/2) w of owned, ghost, and spare particles, with A of the particle's type; nullptr: no
+  // cohesion.  The rest is of CohesionKernel
+
+  struct CohesionData {
+    const double *strength;
+    double support_inv[2], slope_norm[2];
+  };
+
   // Input, output and scratch space of the two loops.  Pass 1 runs over a half neighbor list and stores the pairs inside the
   // support, and F of each pair, for pass 2.
 
@@ -93,24 +101,15 @@ namespace SPHDissipation {
     double *slope;     // F, or nullptr: pass 2 computes F again
     double *square;    // F (e.u)^2, if mu is not constant
 
+    CohesionData cohesion;     // of pass 2
     const NoiseData *noise;    // of pass 2 with noise
     double *random;            // room for the random numbers of the pairs of one particle
     PairTally *tally;          // nullptr: none
   };
 
-  // Input of the loop of cohesion.  coeff: A of two types; alike: all types have the same A; the rest is of CohesionKernel
-
-  struct CohesionData {
-    const CohesionRow *row;
-    const double *coeff;
-    bool alike;
-    double support_inv[2], slope_norm[2];
-  };
-
   typedef void (*Loop)(LoopData &);
   typedef void (*NoiseLoop)(const LoopData &, const NoiseData &);
   typedef void (*FlowLoop)(const LoopData &, const FlowRow *, double *rate);
-  typedef void (*CohesionLoop)(const LoopData &, const CohesionData &, ForceSum *);
   typedef void (*RateLoop)(const LoopData &, const double *vol, double *rate);
   typedef void (*DiffusionLoop)(const LoopData &, const DiffusionData &, double *sums);
   enum class DiffusionPart { SUMS, FLOW };    // sums for the gradient; flow, with the gradient
@@ -173,7 +172,6 @@ namespace SPHDissipation {
     NoiseLoop (*shared_work)(const NoiseForm &);
     void (*particle_numbers)(const NoiseData &, NoiseChannel, int from, int to, int n, int count,
                              double *numbers);
-    CohesionLoop cohesion;
     FlowLoop (*flow)(bool alike);    // alike: all particles with a volume have one coefficient
     DiffusionLoop (*diffusion)(DiffusionPart, int dim, bool alike);    // alike: one impedance
     BoundaryLoops (*boundary)(Kernel);
@@ -314,9 +312,6 @@ namespace SPHDissipation {
     // Sum the rates of owned and ghost atoms, with room for spare particles, by flow[place], place in the list Flows
     void accumulate_flow(int place, std::vector<double> &rate);
 
-    // After pass 2: add the forces of cohesion to force[], from rows of owned, ghost, and spare particles
-    void accumulate_cohesion(const CohesionRow *);
-
     // Sum the diffusion of volume: width numbers for each owned and ghost atom, with room for spare particles
     void accumulate_diffusion(DiffusionPart, const DiffusionData &, int width,
                               std::vector<SumBlock> &sums);
@@ -390,7 +385,8 @@ namespace SPHDissipation {
         energy;    // internal energy of owned and ghost atoms, if particles have temperatures (temp energy)
     void set_wall_energy(const double *);    // energy in the forces of walls, of owned atoms
     void forget_wall_energy();
-    std::vector<Excess> excess;    // of owned and ghost atoms; empty: no particle has an excess
+    std::vector<Excess> excess;      // of owned and ghost atoms; empty: no particle has an excess
+    std::vector<double> strength;    // of cohesion in the last forces, see CohesionData
 
     // Group bits of bodies; keeps_bodies: the next densities do not change rho of bodies, see ParticleRows::add_offset()
     int body_bits = 0;
@@ -441,6 +437,7 @@ namespace SPHDissipation {
     double *room_for_numbers(int thread, const LoopData &);
     void run_density(Loop);
     void run_noise(NoiseLoop, const NoiseData &);
+    CohesionData cohesion();    // sets strength
     void run_forces(NeighList *, const StepData &, bool linear);
   };
 

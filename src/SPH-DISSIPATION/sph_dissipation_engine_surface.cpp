@@ -114,6 +114,7 @@ void Engine::accumulate_friction(SurfacePairs &some, BoundaryRows &rows, double 
   part.particle = some.particle.data();
   part.spin = some.spin.data();
   part.spare = 0;
+  part.cohesion = {};
   part.excess = nullptr;
   part.type = some.type.data();
   part.weight = some.weight.data();

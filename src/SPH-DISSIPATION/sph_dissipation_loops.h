@@ -270,6 +270,18 @@ namespace SPHDissipation {
       };
     };
 
+    // Return the force of cohesion along r_ij, over r, of pairs whose strengths are 1
+
+    SPH_INLINE Vec cohesion_slope(const CohesionData &cohesion, Vec rsq)
+    {
+      const Vec distance = square_root(rsq);
+      Vec part[2];
+      for (int m = 0; m < 2; m++)
+        part[m] = cohesion.slope_norm[m] *
+            WendlandC6::slope(smaller(distance * cohesion.support_inv[m], all(1.0)));
+      return part[0] - part[1];
+    }
+
     // Set pair to a block of pairs of one particle, and vol and g to the neighbors' values; return F = slope_of(r^2)
 
     template <class Form, class Slope>
@@ -382,6 +394,7 @@ namespace SPHDissipation {
       constexpr bool CONTINUED = (Form::CENTRAL || Form::VECTOR) && !Noise::ON;
       const bool again = !data.slope;    // pass 1 has left no F
       const PairSlope slope_again(*data.par);
+      const double *const strength = data.cohesion.strength;
       const typename Noise::Table noise_table(data);
       Noise noise(data, noise_table);
 
@@ -421,6 +434,8 @@ namespace SPHDissipation {
             pair.central *= weights;
             pressing *= weights;
           }
+          if (strength)
+            pair.central += strength[i] * gather(strength, j) * cohesion_slope(data.cohesion, rsq);
           const Vec by_pressure = pair.central;
           Vec given = all(0.0);    // heat that j gives i
 
@@ -630,48 +645,6 @@ namespace SPHDissipation {
           add_column<1>(rate, j, given);
         }
         rate[i] += sum(total);
-      }
-    }
-
-    // Add the forces of cohesion, after pass 2, see CohesionKernel
-
-    struct AllCoeffs {
-      static constexpr bool uses(int) { return true; }
-    };
-
-    inline void cohesion_loop(const LoopData &data, const CohesionData &cohesion, ForceSum *force)
-    {
-      const CohesionRow *const row = cohesion.row;
-      const CoeffTable<double> table(cohesion.coeff, data);
-      Coeffs<double, AllCoeffs> coeffs(table);
-      for (int ii = 0; ii < data.inum; ii++) {
-        const int i = data.ilist[ii];
-        const CohesionRow own = row[i];
-        const int n = data.count[ii];
-        const Offset *const neighbor = data.neighbor + data.first[ii];
-        Vec total[3] = {all(0.0), all(0.0), all(0.0)};
-
-        for (int k = 0; k < n; k += LANES) {
-          const Offset *const j = neighbor + k;
-          Vec other[4], r[3], on_j[4];
-          load_4_columns<WIDTH<CohesionRow>>(numbers(row), j, other);
-          fetch_ahead<WIDTH<CohesionRow>>(numbers(row), j);
-          for (int d = 0; d < 3; d++) r[d] = own.x[d] - other[d];
-          const Vec distance = square_root(dot(r, r));
-          Vec part[2];
-          for (int m = 0; m < 2; m++)
-            part[m] = cohesion.slope_norm[m] *
-                WendlandC6::slope(smaller(distance * cohesion.support_inv[m], all(1.0)));
-          if (!cohesion.alike) coeffs.load(table, i, j);
-          const Vec central = coeffs.a[0] * (own.w * other[3]) * (part[0] - part[1]);
-          for (int d = 0; d < 3; d++) {
-            total[d] += central * r[d];
-            on_j[d] = -central * r[d];
-          }
-          on_j[3] = all(0.0);
-          add_4_columns<WIDTH<ForceSum>>(numbers(force), j, on_j);
-        }
-        for (int d = 0; d < 3; d++) force[i].f[d] += sum(total[d]);
       }
     }
 
@@ -930,7 +903,6 @@ namespace SPHDissipation {
                              LOOPS::choose_eta_loop,
                              LOOPS::choose_work_loop,
                              LOOPS::particle_numbers,
-                             LOOPS::cohesion_loop,
                              LOOPS::choose_flow_loop,
                              LOOPS::choose_diffusion_loop,
                              LOOPS::choose_boundary_loops,

@@ -74,29 +74,9 @@ void PairEnergyStage::visit(std::size_t from, std::size_t to, Function &&functio
   }
 }
 
-template <class Function> void PairEnergyStage::visit_cohesion(Function &&function) const
-{
-  const Parameters &par = engine.parameters();
-  const Particle *const particle = engine.particle;
-  const int *const type = atom->type;
-  engine.visit_pairs([&](int i, int j, bigint) {
-    const double a = par.cohesion[type[i] * par.ntypes_1 + type[j]];
-    if (a == 0.0) return;
-    double r[3];
-    MathExtra::sub3(particle[i].x, particle[j].x, r);
-    function(i, j, r, MathExtra::len3(r), a * rows[i].w * rows[j].w);
-  });
-}
-
 /* ---------------------------------------------------------------------- */
 
 void PairEnergyStage::run(NeighList *list, PairTally *tally)
-{
-  add_unlike(list, tally);
-  if (!engine.parameters().cohesion.empty()) add_cohesion(tally);
-}
-
-void PairEnergyStage::add_unlike(NeighList *list, PairTally *tally)
 {
   if (engine.parameters().pair_energy.empty()) return forget();
   const PairEnergyKernel kernel(engine.parameters().dim, engine.parameters().support);
@@ -124,32 +104,6 @@ void PairEnergyStage::add_unlike(NeighList *list, PairTally *tally)
   });
 }
 
-void PairEnergyStage::add_cohesion(PairTally *tally)
-{
-  const Parameters &par = engine.parameters();
-  const ParticleRows &particles = engine.rows();
-  const int nall = atom->nlocal + atom->nghost;
-  rows.resize(nall + BLOCK);
-  engine.for_each(nall + BLOCK, [&](int i) {
-    const double *const x = engine.particle[i].x;
-    const bool of_fluid = i < nall && !par.type[atom->type[i]].other;
-    rows[i] = {{x[0], x[1], x[2]}, of_fluid ? particles.reference_volume(i) : 0.0};
-  });
-  if (!tally) return engine.accumulate_cohesion(rows.data());
-
-  const CohesionKernel kernel(par.dim, par.support);
-  visit_cohesion([&](int i, int j, const double *rij, double r, double energy) {
-    const double central = energy * kernel.slope(r);
-    double push[3];
-    for (int d = 0; d < 3; d++) {
-      push[d] = central * rij[d];
-      engine.force[i].f[d] += push[d];
-      engine.force[j].f[d] -= push[d];
-    }
-    tally->tally(i, j, push, rij);
-  });
-}
-
 double PairEnergyStage::energy(double *each_atom, int groupbit) const
 {
   const Parameters &par = engine.parameters();
@@ -170,8 +124,10 @@ double PairEnergyStage::energy(double *each_atom, int groupbit) const
   });
   if (par.cohesion.empty()) return total;
   const CohesionKernel cohesion(par.dim, par.support);
-  visit_cohesion([&](int i, int j, const double *, double r, double energy) {
-    add(i, j, energy * cohesion.weight(r));
+  engine.visit_pairs([&](int i, int j, bigint) {
+    const double a = engine.strength[i] * engine.strength[j];
+    const double rsq = MathExtra::distsq3(engine.particle[i].x, engine.particle[j].x);
+    if (a > 0.0) add(i, j, a * cohesion.weight(sqrt(rsq)));
   });
   return total;
 }

@@ -22,9 +22,9 @@ namespace SPHDissipation {
   struct PairEnergyKernel;
   struct CohesionKernel;
 
-  // Energies of pairs and their forces, after pass 2, with the reference volumes w = m/rho0: of unlike types, a w_i w_j W(r),
-  // see BaseChannel::pair_energy() and PairEnergyKernel; of cohesion, see BaseChannel::cohesion() and
-  // CohesionKernel
+  // Energies of pairs, with the reference volumes w = m/rho0: of unlike types, a w_i w_j W(r), see
+  // BaseChannel::pair_energy() and PairEnergyKernel, with their forces after pass 2; of cohesion, see
+  // BaseChannel::cohesion() and CohesionKernel, with their forces in pass 2
 
   class PairEnergyStage : public Stage {
    public:
@@ -32,13 +32,13 @@ namespace SPHDissipation {
 
     bool active() const;
     void forget();    // while it is not active, its pairs do not follow the neighbor lists
-    // Add the forces to the sums of the engine, with a tally of each pair, or nullptr
+    // Add the forces of unlike types to the sums of the engine, with a tally of each pair, or nullptr
     void run(NeighList *, PairTally *);
     // Return the energy of the particles of a group, half of each pair, at the last run(), on this processor; add it to the
     // energies of the particles (nullptr: to none)
     double energy(double *each_atom, int groupbit) const;
 
-    double memory_usage() const override { return bytes(pairs, sums, rows); }
+    double memory_usage() const override { return bytes(pairs, sums); }
 
    private:
     struct UnlikePair {
@@ -47,17 +47,12 @@ namespace SPHDissipation {
     };
     std::vector<UnlikePair> pairs;    // of the neighbor list
     std::vector<double> energies;     // a of the types when they were found
-    std::vector<CohesionRow> rows;    // of owned, ghost, and spare particles
     ThreadSums<ForceSum> sums;
 
     void find_pairs(NeighList *, const PairEnergyKernel &);
-    void add_unlike(NeighList *, PairTally *);
-    void add_cohesion(PairTally *);
-    // Call function(pair, r_ij, r^2) for the pairs of unlike types within the support radius; call function(i, j, r_ij, r,
-    // A w_i w_j) for those of cohesion
+    // Call function(pair, r_ij, r^2) for the pairs of unlike types within the support radius
     template <class Function>
     void visit(std::size_t from, std::size_t to, Function &&function) const;
-    template <class Function> void visit_cohesion(Function &&function) const;
   };
 
 }    // namespace SPHDissipation

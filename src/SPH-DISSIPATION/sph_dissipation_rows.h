@@ -61,13 +61,6 @@ namespace SPHDissipation {
     double heat;
   };
 
-  // Input of the loop of cohesion: position, and reference volume w = m/rho0
-
-  struct alignas(16) CohesionRow {
-    double x[3];
-    double w;
-  };
-
   // Spin, extrapolated to the end of the step
 
   struct alignas(16) Spin {
