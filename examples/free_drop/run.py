@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-only
-"""Drops of a liquid with a free surface: they oscillate by its tension, against theory; two drops merge.
+"""Drops of a liquid with a free surface: they oscillate by its tension, against theory; two drops merge; drops rest on walls.
 
     ./sphd run free_drop          or
     SPHD_LMP=path/to/lmp python3 run.py [--quick] [--np N] [--out DIR] [--check]
@@ -21,6 +21,12 @@ SEEDS = 1, 2, 3
 JOBS = {f"r{radius}_{seed}": {"radius": radius, "seed": seed} for radius in RADII for seed in SEEDS}
 QUICK = {"r12_1": {"radius": 12, "seed": 1, "end": 1.0}}
 TIMES = 0, 20, 80, 500   # of the frames of two drops that merge
+ANGLES = {2: (40, 60, 90, 120, 150), 3: (90, 120)}     # contact angles of walls; 40: not held
+STARTS = {"flat": -30, "round": 30}                     # angle of the drop at the beginning less that of the wall
+OF_DIM = {2: {}, 3: {"dim": 3, "n": 1000, "end": 300}}
+OF_ANGLE = {150: {"mu": 0.4, "kappa": 2.0}}             # a drop that hardly touches its wall bounces
+ON_WALLS = {f"wall{dim}_{angle}_{start}_{seed}": {**OF_DIM[dim], **OF_ANGLE.get(angle, {}), "angle": angle, "start": angle + more, "seed": seed}
+            for dim in (3, 2) for angle in ANGLES[dim] for start, more in STARTS.items() for seed in (SEEDS if dim == 2 else SEEDS[:1])}
 
 
 class Drop:
@@ -52,6 +58,23 @@ class Merging:
         self.widths = np.array([widths.min(), widths.max()]) / np.sqrt(4 * len(places) / np.pi)
         apart = np.sqrt(((places[:, None] - places[None])**2).sum(axis=2)) + 9 * np.eye(len(places))
         self.apart = apart.min()
+
+
+def segment(angle, dim):
+    """Mean height above the wall over the root of the mean squared distance from the axis, of a part of a circle or a sphere."""
+    z = np.linspace(np.cos(angle), 1.0, 2001)
+    width = np.sqrt(1.0 - z**2)
+    weight = width**(dim - 1)
+    squares = width**2 / (3 if dim == 2 else 2)
+    return np.average(z - z[0], weights=weight) / np.sqrt(np.average(squares, weights=weight))
+
+
+def contact_angle(out, name, dim):
+    """Angle of the part of a circle or a sphere with height and width of the drop, the mean over the last half of the run."""
+    _, width, height = np.loadtxt(out / f"{name}.probe.txt").T
+    angles = np.radians(np.linspace(5, 178, 500))
+    found = np.interp(height / width, [segment(angle, dim) for angle in angles], angles)
+    return np.degrees(found[len(found) // 2:].mean())
 
 
 def base(t, omega, decay):
@@ -99,11 +122,12 @@ def plot(path, drops, merging):
 
 
 def main():
-    example = Example(HERE, "Drops of a liquid with a free surface oscillate and merge.")
+    example = Example(HERE, "Drops of a liquid with a free surface oscillate, merge, and rest on walls.")
     args = example.arguments()
     jobs = QUICK if args.quick else JOBS
     both = {"merging": {"radius": 5, "end": 100} if args.quick else {}}
-    example.run({**jobs, **both}, {"merging": HERE / "in.merging"})
+    on_walls = {"wall2_90_flat_1": {"n": 150, "angle": 90, "start": 60, "end": 100}} if args.quick else ON_WALLS
+    example.run({**on_walls, **jobs, **both}, {"merging": HERE / "in.merging", **dict.fromkeys(on_walls, HERE / "in.wall")})
     merging = Merging(example.out, "merging")
     drops = {name: Drop(example.out, name) for name in jobs}
     print("drop     radius  frequency  over theory    decay  over that by viscosity")
@@ -114,6 +138,7 @@ def main():
     print(f"{merging.aspect[-1]:18.4f}  {merging.widths[0]:29.4f}  {merging.widths[1]:13.4f}  {merging.apart:27.3f}")
     example.merit("two drops that merged: aspect of the axes", merging.aspect[-1], *((0.8, 1.2) if args.quick else (0.99, 1.01)))
     if args.quick:
+        example.merit("angle of a wall with 90", contact_angle(example.out, *on_walls, 2), 60, 120)
         example.merit("radius 12: frequency over theory", omega / drop.omega, 0.9, 1.1)
         return example.finish()
     print("\nmean of 3 seeds\nradius  tension over that given  decay over that by viscosity")
@@ -124,6 +149,14 @@ def main():
         print(f"{radius:6d}  {tension:23.3f}  {decay:28.2f}")
         example.merit(f"radius {radius}: tension by the frequency over that given", tension, 0.96, 1.04)
         example.merit(f"radius {radius}: decay over that by viscosity", decay, 1.0, 2.4)
+    print("\ncontact angles on walls, mean of 3 seeds in two dimensions\ndimensions  angle of the wall  of a drop that begins too flat  too round")
+    for dim, bound in (2, 4), (3, 5):
+        for angle in ANGLES[dim]:
+            own = {start: np.mean([contact_angle(example.out, name, dim) for name in ON_WALLS if name.startswith(f"wall{dim}_{angle}_{start}")])
+                   for start in STARTS}
+            print(f"{dim:10d}  {angle:17d}  {own['flat']:30.1f}  {own['round']:9.1f}")
+            for start, found in own.items() if angle > 40 else ():
+                example.merit(f"{dim} dimensions, contact angle {angle}, from too {start}", found, angle - bound, angle + bound)
     picture = example.out / "free_drop.png"
     plot(picture, drops, merging)
     return example.finish(picture)

@@ -124,6 +124,22 @@ def test_total_energy(lammps, integrator):
     assert errors[1] < 1e-3 and errors[0] / errors[1] > 3.0
 
 
+@pytest.mark.parametrize("dim, n", [(2, 200), (3, 300)])
+def test_drop_on_a_wall(lammps, dim, n):
+    """The wall of examples/free_drop: energy of all kinds to second order, momentum along the wall to rounding errors."""
+    text = (Path(__file__).resolve().parents[2] / "examples" / "free_drop" / "in.wall").read_text(encoding="utf-8")
+    text = text.replace("run ${steps}", "variable p equal vcm(all,x)\nthermo_style custom step c_energy f_wall ke v_p\nthermo 1\n" + FULL + "run ${steps}")
+    errors = []
+    for timestep in 0.02, 0.01:
+        values = {"dim": dim, "n": n, "start": 60, "end": 4.0, "dt": timestep, "seed": 4711}
+        table = lammps("".join(f"variable {name} index {value}\n" for name, value in values.items()) + text, ranks=2).thermo()[0]
+        assert np.ptp(table["f_wall"]) > 1.0 and table["KinEng"].max() > 0.1
+        assert np.abs(table["v_p"]).max() < 1e-12 * np.sqrt(2 * table["KinEng"].max() / n)
+        errors.append(np.ptp(table["c_energy"] + table["f_wall"]) / np.ptp(table["f_wall"]))
+    print(dim, errors)
+    assert errors[1] < 2e-3 and errors[0] / errors[1] > 3.0
+
+
 def ellipse(dim, radius, aspect):
     """Particles of a square or cubic lattice in an ellipse of this aspect, at rest."""
     particles = lattice(dim, 2 * int(1.5 * radius))
