@@ -531,7 +531,7 @@ def test_temperature_of_a_pair_style_without_coefficients(lammps):
     text = between_runs("wall", "").replace("volume mass", "temp energy 1.0 5 volume mass") + "compute T all sph/temp\nrun 2\n"
     for ranks in (1, 2):
         result = lammps(text + "pair_style none\npair_style sph/bulk temp energy 1.0 5\nprint '$(c_T[5])'\n", check=False, ranks=ranks)
-        assert "Compute sph/temp needs the coefficients of the pair style" in result.error, result.output[-2000:]
+        assert "Compute sph/temp needs the coefficients of the present pair style" in result.error, result.output[-2000:]
 
 
 def test_a_custom_property_of_the_same_name_is_refused(lammps):
