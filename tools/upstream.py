@@ -357,8 +357,8 @@ KOKKOS_SOURCES = """if(PKG_{package})
 
 def add_kokkos_sources(tree):
     """LAMMPS's CMake finds the files of styles, others are to be named."""
-    others = [file.name for file in sorted(KOKKOS.glob("*.cpp"))
-              if not re.search(r"^(Pair|Fix|Compute|Atom)Style\(", file.with_suffix(".h").read_text(), re.MULTILINE)]
+    styles = [header.stem for header in KOKKOS.glob("*.h") if re.search(r"^(Pair|Fix|Compute|Atom)Style\(", header.read_text(), re.MULTILINE)]
+    others = [file.name for file in sorted(KOKKOS.glob("*.cpp")) if file.stem not in styles]
     sources = [f"${{KOKKOS_PKG_SOURCES_DIR}}/{name}" for name in others]
     if sources:
         sources = "  list(APPEND KOKKOS_PKG_SOURCES " + ("\n" + 33 * " ").join(sources) + ")\n"
