@@ -214,7 +214,8 @@ template <class DeviceType> OwnForces FluidKokkos<DeviceType>::forces_for_steps(
 }
 
 /* ----------------------------------------------------------------------
-   Solve for the velocities.  The largest rate is that of the present densities, and found on the host.
+   Solve for the velocities.  The largest rate is that of the present densities, and found on the host.  The passes with these
+   velocities sync the fields again: at the start of a run, LAMMPS then copies all fields that are not marked as modified.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_velocity(StepData &)
@@ -225,6 +226,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_velocity(StepData 
   }
   find_rate();
   viscous_device.run(pair->list, bound_device(), has_symmetric_matrix());
+  atomKK->modified(pair->execution_space, space.modified_mask());
 }
 
 /* ---------------------------------------------------------------------- */
@@ -355,6 +357,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
        [this](StepData &step) {
          space.prepare();
          viscous_device.begin(step.not_fluid);
+         atomKK->modified(pair->execution_space, space.modified_mask());
        }},
       {"velocities", call(&Own::set_velocity)},
       {"forces",
