@@ -196,6 +196,12 @@ namespace SPHDissipation {
     void step(double interval);
   };
 
+  // Values of a boundary particle if all increments of the fluid are 0
+
+  struct BoundaryRest {
+    double u[3], g, zeta_term, w[3];
+  };
+
   // Large viscosities.  The unknowns are the velocities and spins of the fluid particles that the integrators move, and the
   // velocities of bodies that the fluid moves; a device has no bodies.  This stage sets the velocity in the forces (vest,
   // omegaest) to v_b, on owned and ghost atoms.  One application of Gamma is pass 1 for cdot and pass 2 without the equation
@@ -203,12 +209,6 @@ namespace SPHDissipation {
   //
   // F contains the forces of other styles.  LAMMPS computes these forces after the pair style: so F contains the forces of
   // the step before, and 0 in the first half step of a run.
-
-  // Values of a boundary particle if all increments of the fluid are 0
-
-  struct BoundaryRest {
-    double u[3], g, zeta_term, w[3];
-  };
 
   template <class Space> class ViscousStage : public StiffStage<Space> {
    public:
