@@ -773,6 +773,18 @@ def test_walls_on_the_host(lammps, style):
     assert warned == DEVICE_LOOPS, result.warnings
 
 
+@pytest.mark.parametrize("fixes, options", [(RIGID, ""), (None, "temp 0.01 1234")])
+def test_large_viscosities_on_the_host(lammps, fixes, options):
+    """With bodies, and with noise and walls."""
+    particles = disordered(2, 20, seed=46, jitter=0.1, speed=0.2, spread=0.0)
+    model = fluids("sph/bulk", 2, options=options)
+    text = with_bodies(particles, model, 20, fixes=fixes) if fixes else with_walls("sph/bulk", particles, "channel", model, 20)
+    fixed = integrate("sph/bulk", group="REST").splitlines()[0]
+    result = compare(lammps, "sph/bulk", particles, text.replace(fixed, f"{fixed} viscous implicit tolerance 1e-11"), ranks=2)
+    warned = any("on the host" in line and "viscous" in line for line in result.warnings)
+    assert warned == DEVICE_LOOPS, result.warnings
+
+
 def test_no_warning_on_the_device(lammps, style):
     particles = disordered(2, 14, seed=14, jitter=0.1, spread=0.0)
     result = compare(lammps, style, particles, script(style, particles, fluids(style, 2), 5))
