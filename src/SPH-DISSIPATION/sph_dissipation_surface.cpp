@@ -101,9 +101,9 @@ void SurfaceStage::find(int bits)
     if (MathExtra::lensq3(surface[i].normal) > 0.0) outer.push_back(i);
   find_depth(Cells(atom->x, outer, 0.5 * support), owned);
   exchange.forward({normal, depth});
-  if (!has_flux) return;
   find_curvature(Cells(atom->x, all, radius), owned);
-  exchange.forward({field(first, &first->curvature, 1)});
+  exchange.forward(
+      {depth, field(first, &first->curvature, 1), field(first, &first->flat_depth, 1)});
 }
 
 /* ----------------------------------------------------------------------
@@ -199,13 +199,16 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 
 /* ----------------------------------------------------------------------
    Set the curvature, the divergence of the normals over the dimensions of the surface, by least squares from the normals
-   around a particle; 0 in concave edges, where normals turn too much for the mean normal of surface_heat().
+   around a particle; 0 in concave edges, where normals turn too much for the mean normal of surface_heat().  A curved surface
+   fills the Gaussian of SurfacePlane less than its tangential plane, as if the surface were nearer: correct the depth, with
+   the curvature at the surface; none of it at edges, where the curvature at the surface is twice STRONG or more.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)
 {
-  constexpr double HOLLOW = -0.25;    // times the spacing
+  constexpr double HOLLOW = -0.25, STRONG = 0.25;    // times the spacing
   const double support = engine.constants().support;
+  const int dim = engine.constants().dim;
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
     if (!(MathExtra::lensq3(s.normal) > 0.0)) return;
@@ -222,5 +225,10 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
     });
     const double curvature = turn / norm;
     s.curvature = (curvature * s.spacing > HOLLOW) ? curvature : 0.0;
+    const double width = SurfacePlane::WIDTH * s.spacing;
+    const double bend = s.curvature / std::max(1.0 + s.curvature * s.depth, 0.5);
+    const double known = std::clamp(2.0 - fabs(bend) * s.spacing / STRONG, 0.0, 1.0);
+    s.flat_depth = s.depth;
+    s.depth = std::max(s.depth + 0.5 * (dim - 1) * width * width * known * bend, 0.0);
   });
 }

@@ -106,7 +106,7 @@ namespace SPHDissipation {
     double memory_usage() const override { return bytes(surface); }
 
     std::vector<Surface> surface;    // by owned and ghost atom
-    bool has_flux = false;           // walls have a flux of heat, which needs curvatures
+    bool has_flux = false;           // walls have a flux of heat, which needs flux_volume
 
    private:
     const double *body = nullptr;

@@ -98,7 +98,8 @@ namespace SPHDissipation {
     double normal[3];      // toward the fluid; zero: unknown
     double depth;          // distance of w from the surface
     double spacing;        // of the particles
-    double curvature;      // mean curvature, > 0: convex; for a flux of heat, see surface_heat()
+    double curvature;      // mean curvature, > 0: convex
+    double flat_depth;     // distance from the tangential planes, for surface_heat()
     double flux_volume;    // volume of w for a flux of heat
     double omega[3];       // angular velocity of the rigid body of w
   };
@@ -402,7 +403,7 @@ namespace SPHDissipation {
   // of 2 V_f V_w F |r.n| over all pairs is the area of the surface, if n is the normal where the pair crosses the surface:
   // the integral of F z^2 over one half of space is 1/2.  C = divergence of the normals over the dimensions of the surface.
   // hollow, C < 0: n is on average the normal in the middle, n_w - C r/2 along the surface.
-  // convex: n is the normal of a sphere of radius 1/C + depth, (n_w - C s r)/(1 + C depth), of length 1 at the part s of r.
+  // convex: n is the normal of a sphere of radius 1/C + h, (n_w - C s r)/(1 + C h), of length 1 at the part s of r.
   // V_w is the reference volume times flux_factor(): then the sum is exact on cubic lattices.
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
@@ -412,8 +413,8 @@ namespace SPHDissipation {
     const double turn = surface.curvature * rsq;
     double seen = across + 0.5 * (turn - surface.curvature * across * across);
     if (turn > 0.0) {
-      const double stretch = 1.0 + surface.curvature * surface.depth;
-      const double rise = surface.depth * (1.0 + stretch);
+      const double stretch = 1.0 + surface.curvature * surface.flat_depth;
+      const double rise = surface.flat_depth * (1.0 + stretch);
       const double way = across + sqrt(across * across + turn * rise);
       seen = (way > rise) ? (across + turn * rise / way) / stretch : (across + turn) / stretch;
     }

@@ -272,7 +272,8 @@ static Real fading(Real dist, Real radius)
 }
 
 // (d + h)/d with the distances d of the fluid and h of the wall particle from the surface.  The outer layer of a wall is what a
-// Gaussian does not find surrounded and what looks at the fluid; the surface is the mean of the planes that touch it.
+// Gaussian does not find surrounded and what looks at the fluid; the surface is the mean of the planes that touch it, and what
+// a curved surface fills less of the Gaussian than a plane.
 
 void System::find_factors()
 {
@@ -316,6 +317,23 @@ void System::find_factors()
     const bool known = length > 0.1L * weights(i);
     depth(i) = known ? std::max(depth(i) / weights(i), 0.0L) : 0.45L * spacing(i);
     normal[i] = known ? SmallVector(normal[i] / length) : SmallVector::Zero(n);
+  }
+  Vector turn = Vector::Zero(N), room = turn;
+  for (const auto &p : solid) {
+    const Real radius = std::min(model.support, 3.0L * spacing(p.i));
+    if (!(p.dist < radius)) continue;
+    const SmallVector along = normal[p.i] * normal[p.i].dot(p.r) - p.r;
+    turn(p.i) += fading(p.dist, radius) * along.dot(normal[p.j]);
+    room(p.i) += fading(p.dist, radius) * along.squaredNorm();
+  }
+  for (int i = 0; i < N; i++) {
+    if (!is_wall(i) || !(normal[i].norm() > 0.5L) || !(room(i) > 0.0L)) continue;
+    const Real width = 0.7L * spacing(i), bend = turn(i) / room(i) * spacing(i);
+    if (!(bend > -0.25L)) continue;
+    const Real at_surface = bend / std::max(1.0L + bend * depth(i) / spacing(i), 0.5L);
+    const Real known = std::clamp(2.0L - std::abs(at_surface) / 0.25L, 0.0L, 1.0L);
+    depth(i) =
+        std::max(depth(i) + 0.5L * (n - 1) * width * width * known * at_surface / spacing(i), 0.0L);
   }
   for (auto &p : pairs) {
     if (is_wall(p.i) == is_wall(p.j)) continue;
@@ -465,7 +483,8 @@ SmallMatrix System::shear_block(const Pair &p, const std::string &form) const
   if (form == "mg") return 2.0L * (n + 2) * weight * dyad;
   if (form == "mg/fr")    // P1 eqs. (15), (49)
     return 2.0L * n * (n + 2) / ((n + 1) * mean_distance) * weight * p.dist * dyad;
-  if (form == "mg/fr2")    // the same mean over directions as mg: 2 (n+2) n = 2 n (n+2) <r^2>/<r^2>, n = integral of F r^2
+  if (form ==
+      "mg/fr2")    // the same mean over directions as mg: 2 (n+2) n = 2 n (n+2) <r^2>/<r^2>, n = integral of F r^2
     return 2.0L * (n + 2) * n / kernel.slope_moment(4) * weight * p.r * p.r.transpose();
   if (form == "morris") return 2.0L * weight * SmallMatrix::Identity(n, n);
   if (form == "espanol")

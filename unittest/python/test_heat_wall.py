@@ -39,17 +39,6 @@ def lattice_sums(dim, R, spacing):
     return spacing**dim * W.sum(), spacing**dim * (F * r * r).sum() / dim
 
 
-def curvature(i, r, dist, normal, solid, radius):
-    """Mean of the curvatures of the surface seen from the wall particle i, from the normals around it; r from i to all."""
-    if not normal[i].any():
-        return 0.0
-    near = np.flatnonzero(solid & (dist < radius))
-    share = ref.fading(dist[near], radius)
-    along = r[near] - np.outer(r[near] @ normal[i], normal[i])
-    found = share @ (normal[near] * along).sum(axis=1) / (share @ (along**2).sum(axis=1))
-    return found if found > -0.25 else 0.0  # in spacings of 1, about
-
-
 def crossing(curvature, depth, up, dist):
     """Projection of the way from a wall particle to the fluid on the normal where it crosses the surface; up: on that of the particle."""
     if curvature <= 0.0:
@@ -81,7 +70,7 @@ def heating(particles, owner, fluids, T, walls, volume="number"):
     weight = np.where(wet, V * W, 0.0)
     seen = solid & (weight.sum(axis=1) > 0.0)
     V[seen] = cell[seen] * weight.sum(axis=1)[seen] / (weight @ (density * wet))[seen]
-    normal, depth = ref.surface_of(model, -r, dist, F, solid, wet, cell)
+    normal, depth, below_planes = ref.surface_of(model, -r, dist, F, solid, wet, cell)
 
     weight = np.where(of["k"] > 0.0, weight, 0.0)
     k, T = np.where(wet, of["k"], 0.0), np.where(wet, T, 0.0)
@@ -95,8 +84,8 @@ def heating(particles, owner, fluids, T, walls, volume="number"):
             if kind == "flux":
                 zeroth, second = lattice_sums(dim, R, spacing)
                 up = r[near, i] @ normal[i]
-                turn = curvature(i, -r[i], dist[i], normal, solid, min(R, 3 * spacing))
-                got = 2 * value * V[near] * cell[i] * zeroth / second * F[i, near] * crossing(turn, depth[i], up, dist[i, near])
+                turn = ref.curvature(-r[i], dist[i], normal[i], normal, solid, R, spacing)
+                got = 2 * value * V[near] * cell[i] * zeroth / second * F[i, near] * crossing(turn, below_planes[i], up, dist[i, near])
                 flow[near, i] += got
                 flow[i, near] -= got
                 continue

@@ -1184,3 +1184,34 @@ def test_profile_of_the_heated_channel(lammps):
     assert (count == 20).all()
     np.testing.assert_allclose(velocity, 0.4 * y * (1 - y) / 0.2, rtol=0, atol=0.0025)
     np.testing.assert_allclose(temperature, 2 - y + 0.16 / 0.12 * (1 / 16 - (y - 0.5)**4), rtol=0, atol=0.005)
+
+
+# drag of simple cubic arrays over that of Stokes, by volume fraction: A. A. Zick, G. M. Homsy, J. Fluid Mech. 115, 13 (1982)
+
+ZICK = {0.064: 2.810, 0.125: 4.292, 0.216: 7.442, 0.343: 15.4}
+
+
+@pytest.mark.parametrize("n, radius, steps, bound", [(16, 6.0, 110, "move rigid"), *(pytest.param(*array, bound, marks=pytest.mark.long) for array in ((16, 6.0, 220), (20, 6.2, 400))
+                                                                                     for bound in ("gravity 1e-4 0 0", "move rigid"))])
+def test_drag_of_a_cubic_array_of_spheres(lammps, n, radius, steps, bound):
+    """Volume fractions 0.223 and 0.121; fixed or held by fix rigid; the fluid begins with the velocity of the published drag."""
+    side, g, middle = np.arange(n) + 0.5, 1e-4, n / 2
+    count = (np.linalg.norm(np.stack(np.meshgrid(side, side, side)) - middle, axis=0) < radius).sum()
+    a, phi = np.cbrt(3 * count / (4 * np.pi)), count / n**3
+
+    def rest(fraction):
+        """1/K but for the interpolated part: H. Hasimoto, J. Fluid Mech. 5, 317 (1959)"""
+        return 1 - 1.7601 * np.cbrt(fraction) + fraction - 1.5593 * fraction**2
+
+    known = np.array(list(ZICK))
+    drag = 1 / (rest(phi) + np.polyval(np.polyfit(np.cbrt(known), 1 / np.array(list(ZICK.values())) - rest(known), 3), np.cbrt(phi)))
+    speed = g * n**3 / (6 * np.pi * a * drag * (1 - phi))
+    rigid = "fix RIGID ball rigid single force 1 off off off torque 1 off off off\n" if "rigid" in bound else ""
+    table = lammps(f"units lj\ndimension 3\natom_style sph/bulk\nlattice sc 1.0 origin 0.5 0.5 0.5\nregion BOX block 0 {n} 0 {n} 0 {n}\ncreate_box 2 BOX\n"
+                   f"create_atoms 1 box\nregion BALL sphere {middle} {middle} {middle} {radius}\nset region BALL type 2\nset group all mass 1.0\n"
+                   f"group fluid type 1\ngroup ball type 2\nvelocity fluid set {speed} 0 0\nneighbor 0.3 bin\npair_style sph/bulk kernel quintic shear mg/fr2\n"
+                   f"pair_coeff * * 1.0 1.0 1.0 2.0 3.0\nfix PUSH fluid gravity {g} vector 1 0 0\nfix FLOW fluid sph/bulk viscous rkl2\n{rigid}"
+                   f"fix BALL ball sph/wall {bound}\ntimestep 0.28\nvariable u equal vcm(fluid,x)\nthermo_style custom step v_u\nthermo {steps}\nrun {steps}\n").thermo()[-1]
+    ratio = speed / table["v_u"][-1]
+    print(f"phi {phi:.5f}, radius {a:.3f}: drag over the published one {ratio:.4f}")
+    assert abs(ratio - 1.0) < 0.03

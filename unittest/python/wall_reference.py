@@ -123,11 +123,24 @@ def fading(dist, radius):
     return 3 * t ** 2 - 2 * t ** 3
 
 
+def curvature(r, dist, own, normal, solid, support, spacing):
+    """Mean of the curvatures of the surface seen from a wall particle with the normal own, from the normals around it; r from it to all."""
+    if not own.any():
+        return 0.0
+    radius = min(support, 3.0 * spacing)
+    near = np.flatnonzero(solid & (dist < radius))
+    share = fading(dist[near], radius)
+    along = r[near] - np.outer(r[near] @ own, own)
+    room = share @ (along ** 2).sum(axis=1)
+    found = share @ (normal[near] * along).sum(axis=1) / room if room > 0.0 else 0.0
+    return found if found * spacing > -0.25 else 0.0
+
+
 def surface_of(model, x_from, dist, F, solid, fluid, volume):
-    """Normal and depth of each wall particle; x_from[i, j] points from i to j.
+    """Normal and depth of each wall particle, and its depth below the planes; x_from[i, j] points from i to j.
 
     The outer layer is what a Gaussian does not find surrounded and what looks at the fluid; the depth is the mean over
-    the planes that touch it.
+    the planes that touch it, and what a curved surface fills less of the Gaussian than a plane.
     """
     n, at = model.dim, np.flatnonzero(solid)
     spacing = volume ** (1 / n)
@@ -157,7 +170,13 @@ def surface_of(model, x_from, dist, F, solid, fluid, volume):
             depth[i] = 0.45 * spacing[i]
         else:
             normal[i] = mean / np.linalg.norm(mean)
-    return normal, depth
+    below_planes = depth.copy()
+    for i in at:
+        bend = curvature(x_from[i], dist[i], normal[i], normal, solid, model.support, spacing[i])
+        bend /= max(1.0 + bend * depth[i], 0.5)
+        known = np.clip(2.0 - abs(bend) * spacing[i] / 0.25, 0.0, 1.0)
+        depth[i] = max(depth[i] + 0.5 * (n - 1) * (0.7 * spacing[i]) ** 2 * known * bend, 0.0)
+    return normal, depth, below_planes
 
 
 def beyond(kind, depth, d, q, weight, alike=0.01):
@@ -231,7 +250,7 @@ def forces(model, state, walls):
 
     # behind the surface, velocity and spin of the fluid relative to the rigid body which the wall is
     reference = np.array([mass / one.rho0 for mass, one in zip(state.mass, own)])
-    normal, depth = surface_of(model, -r, dist, F, solid, fluid, reference)
+    normal, depth, _ = surface_of(model, -r, dist, F, solid, fluid, reference)
     virtual = u.copy()
     for wall, at in zip(walls, in_wall):
         spin[at] = wall_spin[at]
