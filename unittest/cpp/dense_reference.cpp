@@ -483,8 +483,7 @@ SmallMatrix System::shear_block(const Pair &p, const std::string &form) const
   if (form == "mg") return 2.0L * (n + 2) * weight * dyad;
   if (form == "mg/fr")    // P1 eqs. (15), (49)
     return 2.0L * n * (n + 2) / ((n + 1) * mean_distance) * weight * p.dist * dyad;
-  if (form ==
-      "mg/fr2")    // the same mean over directions as mg: 2 (n+2) n = 2 n (n+2) <r^2>/<r^2>, n = integral of F r^2
+  if (form == "mg/fr2")    // the same mean over directions as mg: 2 (n+2) n = 2 n (n+2) <r^2>/<r^2>, n = integral of F r^2
     return 2.0L * (n + 2) * n / kernel.slope_moment(4) * weight * p.r * p.r.transpose();
   if (form == "morris") return 2.0L * weight * SmallMatrix::Identity(n, n);
   if (form == "espanol")
