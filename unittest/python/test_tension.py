@@ -9,6 +9,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy import optimize
 
 import test_micropolar as micro
 from helpers import SUPPORT, disordered, drop, dump, free, header, lattice, momentum_errors, relative, undump
@@ -367,6 +368,48 @@ def test_laplace_pressure(lammps):
     deep, far = (c0**2 * frame["rho"][part].mean() for part in (r < radius - support, r > radius + support))
     print((deep - far) * radius / sigma)
     assert deep - far == pytest.approx(sigma / radius, rel=0.05)
+
+
+# ---- a wave of the interface -------------------------------------------------------------------------------------
+
+
+def root_of_wave(k, nu, sigma):
+    """Decay and frequency of a wave between two fluids of density 1 and viscosity nu that fill all space, from the equations of Stokes.
+
+    Velocity along z: A exp(-k|z|) - A k/q exp(-q|z|) with q^2 = k^2 + s/nu, so that both components are continuous at z = 0.
+    The pressures 2 s A/k apart carry the tension sigma k^2 (1 - k/q) A/s: s^2 = -sigma k^3/2 (1 - k/q).
+    """
+    s = 1j * np.sqrt(sigma * k**3 / 2)
+    for _ in range(200):
+        s = 0.5 * (s + 1j * np.sqrt(sigma * k**3 / 2 * (1 - k / np.sqrt(k**2 + s / nu))))
+    return -s.real, s.imag
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("pb, temp, frequency, decay", [(8.0, "", 0.93, (1.5, 3.0)), (8.0, "temp 0.002 1", 0.96, (1.5, 2.5)), (0.0, "temp 0.002 1", 0.85, (0.7, 1.7))])
+def test_wave_of_an_interface(lammps, pb, temp, frequency, decay):
+    """Frequency and decay over those of linear theory; a wave of 32 spacings with a small viscosity, in both planes between two fluids."""
+    n, amplitude, nu = 32, 1.6, 0.024
+    k = 2 * np.pi / n
+    rate, omega = root_of_wave(k, nu, 1.0)
+    particles = lattice(2, (n, 2 * n))
+    height = particles.x[:, 1] - amplitude * np.cos(k * particles.x[:, 0])
+    particles.type = np.where((height > n / 2) & (height < 3 * n / 2), 2, 1)
+    model = (f"pair_style sph/bulk kernel wendland/c6 volume mass {temp}\npair_coeff * * 1.0 10.0 {nu} 0.5 5.0 pb {pb}\npair_coeff 1 2 tension 1.0\n"
+             "displace_atoms all random 0.15 0.15 0 4711\n"
+             f"variable low atom (type==2)*cos({k}*x)*(y<{n})\nvariable high atom (type==2)*cos({k}*x)*(y>={n})\ncompute sums all reduce sum v_low v_high\n"
+             "thermo_style custom step time c_sums[1] c_sums[2]\nthermo_modify norm no\nthermo 20\n")
+    table = lammps(start(particles, lammps, model, timestep=0.05) + "run 8200\n", ranks=2).thermo()[-1]
+    later = np.array(table["Time"]) > 10.0
+    t, found = np.array(table["Time"])[later], []
+    for column in "c_sums[1]", "c_sums[2]":
+        y = np.array(table[column])[later]
+        fits = [optimize.least_squares(lambda p: p[0] * np.exp(-p[1] * t) * np.cos(p[2] * t + p[3]) + p[4] - y, (y[0], rate, guess, 0.0, 0.0))
+                for guess in omega * np.linspace(0.6, 1.2, 7)]
+        found.append(min(fits, key=lambda fit: fit.cost).x[[2, 1]] / (omega, rate))
+    print(pb, temp, np.round(found, 3))
+    assert np.mean(found, axis=0)[0] == pytest.approx(frequency, abs=0.06)
+    assert decay[0] < np.mean(found, axis=0)[1] < decay[1]
 
 
 # ---- bad input ---------------------------------------------------------------------------------------------------
