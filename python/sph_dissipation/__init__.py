@@ -2,7 +2,7 @@
 """SPH-DISSIPATION for Python: fluids and gases, inputs with the numbers that follow from them, and readers of what LAMMPS writes.
 
     fluids      Fluid of potentials/*.sph, humid air, sound in them, SI units
-    plan        an input for a flow, for sound, a channel, or a dam break; python3 -m sph_dissipation.plan is ./sphd plan
+    plan        an input for a flow, for sound, a channel, a dam break, or a colloid; python3 -m sph_dissipation.plan is ./sphd plan
     fill        particles in and around a closed STL file; python3 -m sph_dissipation.fill is ./sphd fill
     flow_means  means over the periods of a wave, and period_means
     thermo ...  readers: logs, dumps, averages of fixes

@@ -68,6 +68,7 @@ BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
 LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("bcc", 2 ** (1 / 3), 2, (1, 1, 1))}
 
 
+BREAKUP = 60              # Reynolds number of a channel, from which on its rows of particles may break up
 STIFF = 10.0      # times the step of sound, from which rate of the viscous terms on they get a solver of their own,
 STIFFER = 300.0   # and from which on one that damps fast motions at once; see the page about large viscosities
 MOST = 2**31 - 1          # steps of LAMMPS's run command, and IDs of particles
@@ -186,16 +187,17 @@ class Plan:
                 self.real = fluids.find(args.fluid)
             except KeyError as known:
                 names = known.args[0].split()
-                names.sort(key=lambda name: -difflib.SequenceMatcher(None, args.fluid.lower(), name.lower()).ratio())
+                near = difflib.get_close_matches(args.fluid.lower(), [name.lower() for name in names])
+                names.sort(key=lambda name: (near.index(name.lower()) if name.lower() in near else len(near), name.lower()))
                 raise SystemExit(f"plan: no fluid {args.fluid} in gases.sph and fluids.sph, which have: {' '.join(names)}; for another one give "
-                                 "--rho, --mu, --kappa, and --units si") from None
+                                 f"--rho, --mu, --kappa, {'--c, ' if self.wave else ''}and --units si") from None
             except ValueError as error:
                 raise SystemExit(f"plan: no fluid {args.fluid}: {error}") from None
             self.c_fluid = self.real.c
         else:
             self.real = fluids.Fluid(args.rho, None, args.mu, args.kappa)
         if self.wave and args.c in (None, "real") and not args.fluid:
-            raise SystemExit("plan: --c real is for --fluid; sound in another one needs its speed after --c")
+            raise SystemExit("plan: --c real is for --fluid; sound in another one needs its speed after --c, for instance --c 1920")
         if self.wave and self.real.kappa is None:
             raise SystemExit("plan: sound is damped by the bulk viscosity as well: give --kappa; 0 is for Stokes' hypothesis")
         if self.wave:
@@ -323,7 +325,10 @@ class Plan:
         longitudinal = self.zeta + (SHEAR[self.args.shear][1](self.dim) + 2 - 2 / self.dim) * self.mu
         wave = replace(self.fluid, c=self.c0, kappa=longitudinal - 4 / 3 * self.mu)
         s = wave.standing_wave(self.args.length)
-        lines = ["pressure            with pb the particles are a crystal: right for sound, not for shear"]
+        lines = []
+        if not self.args.fluid and self.dim == 2:
+            lines.append(f"bulk viscosity      {self.kappa:.4g} in two dimensions; a liquid with this one in three has kappa + mu/3 = {self.kappa + self.mu / 3:.4g} here")
+        lines.append("pressure            with pb the particles are a crystal: right for sound, not for shear")
         if s is None or abs(s.real) > 2 * s.imag:
             return lines + ["NOTE                the wave does not outlive a period"]
         # all of the wave of velocity U at the start, when no strain is there yet, is U sum exp(s t)/D'(s) over the roots of
@@ -500,7 +505,7 @@ class Column(Plan):
         return [f"column              {self.width * self.dx:.4g} wide, {self.args.column:.4g} high, {fall} in a tank {self.tank * self.dx:.4g} long",
                 f"walls               slip {self.slip}: friction reaches {self.layer:.2g} in (H/g)^(1/2), {self.layer / self.dx:.2g} spacings",
                 f"speed of sound      {self.c0:.4g}, ten times the largest velocity; kappa damps its sound and does not slow the flow",
-                f"time                {self.args.time:.4g}; unit (H/g)^(1/2) = {math.sqrt(self.args.column / self.gravity):.4g}"]
+                f"time                {self.args.time:.4g}; gravity {self.gravity:g}; unit (H/g)^(1/2) = {math.sqrt(self.args.column / self.gravity):.4g}"]
 
     def scaled(self, factor):
         args = argparse.Namespace(**vars(self.args))
@@ -621,7 +626,9 @@ class Channel(Plan):
     def flow_notes(self):
         args = self.args
         yields = f", yield stress {self.stress:g}: {100 * self.plug:.2g} % of the channel moves as a plug" if self.stress else ""
-        return [f"Reynolds number     {self.rho * args.velocity * args.channel / self.mu:.4g}, Mach number {args.velocity / self.c0:.3g}{yields}",
+        reynolds = self.rho * args.velocity * args.channel / self.mu
+        note = ["                    NOTE: rows of particles may break up: the flow rate may be wrong by 10 percent"] if reynolds > BREAKUP else []
+        return [f"Reynolds number     {reynolds:.4g}, Mach number {args.velocity / self.c0:.3g}{yields}", *note,
                 f"force               {self.force:.5g} per mass, which gives the stress {self.at_wall:.5g} at the walls",
                 f"theory              mean velocity {self.mean():.5g} in the end, from rest within 0.1 % after {0.7 * self.rho * args.channel**2 / self.mu:.4g}"]
 
@@ -857,7 +864,7 @@ def arguments(argv):
     parser.add_argument("--fluid", help="name in potentials/gases.sph or fluids.sph, in any case, or air/HUMIDITY[/TEMPERATURE[/PRESSURE]]")
     parser.add_argument("--rho", type=positive, help="density")
     parser.add_argument("--mu", type=not_negative, help="shear viscosity")
-    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity (default: what the shear term brings along, with --column what damps sound; waves of sound need it)")
+    parser.add_argument("--kappa", type=not_negative, help="bulk viscosity in --dim dimensions (default: what the shear term brings along, with --column what damps sound; waves of sound need it)")
     parser.add_argument("--units", choices=BOLTZMANN, help="without --fluid (default: lj)")
     parser.add_argument("--length", type=positive, help="of the flow; the box is as wide")
     parser.add_argument("--velocity", type=positive, help=f"the largest of the flow, or of the wave (default: {SOUND_MACH:g} of the speed of sound)")
@@ -872,7 +879,7 @@ def arguments(argv):
     parser.add_argument("--yield", type=positive, metavar="TAU", dest="yield_stress", help="yield stress of the fluid in a channel, a Bingham fluid")
     parser.add_argument("--relax", action="store_true", help="bulk viscosity that relaxes (default: for sound above the frequency up to which a constant holds)")
     parser.add_argument("--c", type=sound_speed, help="speed of sound of the particles, or the word real: a wave of sound (default: ten times the velocity)")
-    parser.add_argument("--dim", type=int, choices=(2, 3), default=2)
+    parser.add_argument("--dim", type=int, choices=(2, 3), help="dimensions (default: 2, with --colloid 3)")
     parser.add_argument("--particles", type=int, metavar="N", help="across the length (default: 50, with --colloid 12)")
     parser.add_argument("--support", type=positive, help="support radius over particle distance (default: 3 with mg/fr2 and wendland/c2, else 4, for sound 6)")
     parser.add_argument("--kernel", choices=STABILITY, metavar="NAME", help="(default: wendland/c2, for sound wendland/c6)")
@@ -880,12 +887,15 @@ def arguments(argv):
     parser.add_argument("--temperature", type=not_negative, metavar="T", help="of thermal noise")
     parser.add_argument("--fraction", type=positive, help="time step over the largest stable one, without noise (default: 0.5, with --column 0.95)")
     parser.add_argument("--time", type=positive, help="to simulate (default: ten passages of the length)")
-    parser.add_argument("--run", action="store_true", help="write the input in.NAME, run it, print what it measures beside theory, and keep log.NAME; NAME: sound, column, channel, colloid, or flow")
+    parser.add_argument("--run", action="store_true", help="write the input in.NAME (another one there becomes in.NAME.1), run it, print what it measures beside theory, and keep log.NAME; NAME: sound, column, channel, colloid, or flow")
     parser.add_argument("--plot", action="store_true", help="... and draw what is measured beside theory: NAME.png")
     parser.add_argument("--lmp", type=Path, default=ROOT / "build" / "lmp", help="LAMMPS that is timed (default: build/lmp)")
     args = parser.parse_args(argv)
-    if bool(args.fluid) == (args.rho is not None) or (args.fluid and (args.mu, args.kappa) != (None, None)):
-        parser.error("give --fluid, or --rho, --mu, and --kappa")
+    for word in ("rho", "mu", "kappa") if args.fluid else ():
+        if getattr(args, word) is not None:
+            parser.error(f"--{word} cannot be given with --fluid: give one of them")
+    if not args.fluid and args.rho is None:
+        parser.error("give --fluid, or --rho" + (", --mu, --kappa, and --c" if args.wavelength or args.frequency else " and --mu"))
     if args.fluid and args.units:
         parser.error("--fluid is in SI units: leave --units out")
     if not args.fluid and args.mu is None:
@@ -920,6 +930,8 @@ def arguments(argv):
         if args.yield_stress and args.shear not in (None, "mg", "mg/fr2"):
             parser.error(f"--yield is for --shear mg and mg/fr2, not {args.shear}")
     elif args.colloid:
+        if args.dim == 2:
+            parser.error("--dim 2 is not for --colloid; the page Howto_sph_bodies has the input of a disc, \"A colloid\"")
         args.dim = 3
         if not args.temperature or args.mu == 0.0:
             parser.error("--colloid needs --temperature above 0, and a fluid with a shear viscosity")
@@ -931,6 +943,7 @@ def arguments(argv):
         parser.error("--yield is for --channel")
     if args.plot and not (kind or args.wavelength or args.frequency or args.c == "real"):
         parser.error("--plot draws what a theory tells: it is for sound, --column, --channel, and --colloid")
+    args.dim = args.dim or 2
     args.fraction = args.fraction or (0.95 if args.column else 0.5)
     if args.particles is not None and args.particles < 1:
         parser.error("--particles must be > 0")
@@ -972,7 +985,9 @@ def run(text, plan):
     plt = pyplot() if plan.args.plot else None
     file = Path(f"in.{name}")
     if file.exists() and file.read_text(encoding="utf-8").split("\n\n", 1)[1:] != text.split("\n\n", 1)[1:]:
-        raise SystemExit(f"plan: {file} is there already and is another input; rename it")
+        old = next(old for old in (Path(f"in.{name}.{k}") for k in itertools.count(1)) if not old.exists())
+        file.rename(old)
+        print(f"plan: {file} was another input; it is now {old}")
     file.write_text(text, encoding="utf-8")
     print(text.partition("\n\n")[0], flush=True)
     if subprocess.run([str(lmp.resolve()), "-in", str(file), "-log", f"log.{name}", "-nocite"], stdin=subprocess.DEVNULL, check=False).returncode:

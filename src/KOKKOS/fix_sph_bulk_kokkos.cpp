@@ -154,7 +154,10 @@ template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::initial_integrate
 
 template <class DeviceType> void FixSPHBulkKokkos<DeviceType>::final_integrate()
 {
-  if (!on_host()) return integrate_on_device(END);
+  if (!on_host()) {
+    end_step();
+    return integrate_on_device(END);
+  }
   atomKK->sync(Host, ALL_MASK);
   FixSPHBulk::final_integrate();
   atomKK->modified(Host, modified_mask(END));

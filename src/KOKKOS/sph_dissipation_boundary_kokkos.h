@@ -165,7 +165,7 @@ namespace SPHDissipation {
   template <class DeviceType, class K> struct RepulsionKokkos {
     LoopDataKokkos<DeviceType> data;
     BoundaryDataKokkos<DeviceType> boundary;
-    double thermal_stiffness;    // 0: by the speed of sound
+    double thermal_stiffness;    // with thermal noise
 
     template <bool VIRIAL> KOKKOS_INLINE_FUNCTION int row(int k, double *virial) const
     {
@@ -205,7 +205,7 @@ namespace SPHDissipation {
 
     KOKKOS_INLINE_FUNCTION Repulsion repulsion(int fluid) const
     {
-      if (thermal_stiffness > 0.0) return {thermal_stiffness, 0.0};
+      if (data.par.thermal) return {thermal_stiffness, 0.0};
       return repulsion_of_surface(data.rmass[fluid], data.types[data.type[fluid]].eos.c0);
     }
 

@@ -139,7 +139,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::build_host_list()
       if (x[i][d] != x[j][d]) return x[i][d] > x[j][d];
     return false;
   };
-  auto mine = [=, this](int i, int j) {
+  auto mine = [&](int i, int j) {
     if (j < nlocal) return i < j;
     if (!force->newton_pair) return true;
     if (!atom->tag_enable || tag[i] == tag[j]) return above(j, i);
@@ -214,8 +214,8 @@ template <class DeviceType> OwnForces FluidKokkos<DeviceType>::forces_for_steps(
 }
 
 /* ----------------------------------------------------------------------
-   Solve for the velocities.  The largest rate is that of the present densities, and found on the host.  The passes with these
-   velocities sync the fields again: at the start of a run, LAMMPS then copies all fields that are not marked as modified.
+   Solve for the velocities.  The largest rate follows from the present densities, on the host.  Then mark what has changed:
+   at the start of a run, the next sync copies each field that is not marked from the host, and these velocities would be lost.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_velocity(StepData &)
@@ -290,7 +290,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
   }
   space.copy_coeffs();
   atomKK->sync(pair->execution_space, HEAT);
-  state_device.advance(not_fluid(), not_fluid(), nullptr, 0);    // open zones are for the host
+  state_device.advance(not_fluid(), not_fluid(), nullptr, 0);    // no open zones here
   atomKK->modified(pair->execution_space, STATES_MASK);
 }
 
@@ -303,7 +303,7 @@ template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *t
       atom->desph[i] = 0.0;
     });
     const bigint nbeyond = Fluid::compute(tally);
-    exchange->reverse({{atom->desph, 1, 1}});    // the atom style does not
+    exchange->reverse({{atom->desph, 1, 1}});    // the atom style does not send them
     if (spins) exchange->reverse({{atom->torque[0], 3, 3}});
     return nbeyond;
   }
@@ -521,7 +521,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &s
       with_form(space.data->par.terms(), [&](auto form) {
         run_noise<K, decltype(form)>(step, n, on_device::AllPairsKokkos<DeviceType>());
       });
-    if (boundary_device->particles().occupied.extent(0))
+    if (!boundary->empty() && boundary_device->particles().occupied.extent(0))
       space.run_loop("sph:repulsion", boundary_device->particles().size(),
                      RepulsionKokkos<DeviceType, K>{*space.data, boundary_device->particles(),
                                                     boundary->thermal_stiffness()},

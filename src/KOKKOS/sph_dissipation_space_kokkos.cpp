@@ -157,7 +157,7 @@ template <class DeviceType> void DeviceSpace<DeviceType>::set_particles(int not_
   data->numneigh = k_list->d_numneigh;
   data->neighbors = k_list->d_neighbors;
   data->nlocal = atom->nlocal;
-  data->excess = nullptr;    // until set_boundary()
+  data->excess = nullptr;    // BoundaryStageKokkos::set_excess() sets it
   set_states();
   data->rmass = atomKK->k_rmass.template view<DeviceType>().data();
   data->esph = avec.k_esph.template view<DeviceType>().data();

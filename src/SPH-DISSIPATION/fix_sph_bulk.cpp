@@ -78,7 +78,7 @@ static const char cite_rkl2[] =
     " doi =     {10.1016/j.jcp.2013.08.021},\n"
     "}\n\n";
 
-// Minus the first number of the data in a restart file
+// Version of the data in restart files, which begin with -FORMAT
 
 static constexpr int FORMAT = 1101;
 
@@ -201,8 +201,8 @@ void FixSPHBulk::read_keywords(int narg, char **arg)
 
 int FixSPHBulk::setmask()
 {
-  return PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE | MIN_PRE_FORCE |
-      FINAL_INTEGRATE;
+  return PRE_EXCHANGE | MIN_PRE_EXCHANGE | INITIAL_INTEGRATE | POST_INTEGRATE | PRE_FORCE |
+      MIN_PRE_FORCE | FINAL_INTEGRATE;
 }
 
 /* ---------------------------------------------------------------------- */
@@ -371,7 +371,8 @@ void FixSPHBulk::check_integrated_once()
                    "of one fix {} only",
                    fixes[k]->id, fixes[l]->id, all, style);
       const Fix *const other = fixes[ours[0] ? l : k];
-      if (all && comm->me == 0 && !utils::strmatch(other->style, "^sph/"))    // they check it
+      if (all && comm->me == 0 &&
+          !utils::strmatch(other->style, "^sph/"))    // those check their groups
         error->warning(FLERR,
                        "Fix {} {} also integrates {} particles of fix {}, which thus move twice in "
                        "a step; use fix {} alone",
@@ -701,7 +702,6 @@ VolumeStep FixSPHBulk::volume_step() const
 void FixSPHBulk::initial_integrate(int /*vflag*/)
 {
   check_set_up();
-  warn_of_jump();
   begin_step();
   integrate(BEGIN);
 }
@@ -712,6 +712,7 @@ void FixSPHBulk::initial_integrate(int /*vflag*/)
 
 void FixSPHBulk::begin_step()
 {
+  warn_of_jump();
   dt_of_states = dtv;
   if (first_instance && fluid && fluid->pair->compute_flag) fluid->begin_step(dtv);
 }
@@ -835,8 +836,13 @@ void FixSPHBulk::add_remapped_velocity()
 
 void FixSPHBulk::final_integrate()
 {
-  dt_of_forces = dtv;
+  end_step();
   integrate(END);
+}
+
+void FixSPHBulk::end_step()
+{
+  dt_of_forces = dtv;
 }
 
 /* ---------------------------------------------------------------------- */

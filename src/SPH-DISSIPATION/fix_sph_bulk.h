@@ -90,6 +90,7 @@ class FixSPHBulk : public Fix {
   SPHDissipation::Fluid *fluid = nullptr;    // fluid of the same style; nullptr: none
   void check_set_up();
   void begin_step();
+  void end_step();
   void shift_particles();    // the first instance shifts particles of all instances
   int nlocal_group() const;
   int bits_not_followed() const;    // groups for which reset_extrapolation() does not set vest

@@ -147,8 +147,8 @@ Fluid *SPHDissipation::find_fluid(LAMMPS *lmp, const std::string &user)
 }
 
 /* ----------------------------------------------------------------------
-   Turn off the virial by r f if single particles have a drag: r f is no virial of such forces.  Style hybrid sums r f itself
-   and follows from the next step on.
+   Turn off the virial by r f if single particles have a drag: r f is no virial of such forces.  Pair style hybrid has read
+   its own flag before this call: hybrid leaves out r f from the next step on.
 ------------------------------------------------------------------------- */
 
 void PairSPHBulk::sum_virial_by_pairs()

@@ -34,7 +34,7 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-// Repulsion of the surfaces with thermal noise, see contact_kernel(): half of the stiffness, 32 kT inside of lattices
+// Repulsion of the surfaces with thermal noise, see contact_kernel(): inside of a lattice a particle has the energy 32 kT
 
 static constexpr double HARDNESS = 150.0;           // k/2 of the repulsion with temp T, over kT
 static constexpr double HARDNESS_OF_SOUND = 0.5;    // the same with temp energy, over m c0^2
@@ -134,7 +134,7 @@ void BoundaryStage::begin(NeighList *list)
     find_surface_pairs();
   }
   find_pairs();
-  surface.has_flux = conducts();
+  surface.conducts = conducts();
   check(found);
   if (found) {
     surface.run(group_bits, pairs, body_of);
@@ -199,8 +199,8 @@ void BoundaryStage::sum_bodies()
 }
 
 /* ----------------------------------------------------------------------
-   The sums of an elastic body are those of its first shape, in which they are stored as a filled part of the support, with
-   the particle itself: then strains have no pressure.  Density continuity keeps them in rho and rho_sum.
+   An elastic body keeps the number densities of its first shape: so strains make no pressure.  vol_support stores them, with
+   the particle itself, as the filled part of the support.  With density continuity, rho and rho_sum keep them instead.
 ------------------------------------------------------------------------- */
 
 void BoundaryStage::keep_first_shape()
@@ -913,7 +913,7 @@ void BoundaryStage::stop_for(int i) const
 const Surface *BoundaryStage::find_surface(const std::vector<double> &sides)
 {
   find_bodies();
-  surface.has_flux = conducts();
+  surface.conducts = conducts();
   surface.run(group_bits, sides, body_of);
   sum_bodies();
   warn_of_contact();

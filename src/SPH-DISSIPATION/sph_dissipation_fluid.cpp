@@ -272,7 +272,7 @@ bigint Fluid::compute(PairTally *tally)
     times[k].calls++;
   }
   changed = false;
-  if (update->setupflag) stages.clear();    // later forces have others
+  if (update->setupflag) stages.clear();    // later forces have other stages
   return step.nbeyond;
 }
 
@@ -347,7 +347,7 @@ void Fluid::list_stages()
   };
   const auto add_passes = [&](bool rates) {
     add(true, "densities", MOTION, VOLUMES | SLOPES, call(*this, &Fluid::sum_density));
-    add_wall_volumes(walls && noisy);    // the bound of the noise is with these volumes
+    add_wall_volumes(walls && noisy);    // with noise, the bound needs these volumes
     add(par.limit != Limit::NO, "bound", VOLUMES | SLOPES, BOUNDS,
         call(*limit, &LimitStage<HostSpace>::run));
     add_wall_volumes(walls && !noisy);
@@ -406,7 +406,7 @@ void Fluid::list_stages()
     add(true, "restored", NOTHING, NOTHING, call(*aside, &ForcesAside::restore));
   }
   trial = false;
-  add_passes(!viscous->active());    // else the viscosities are those of the guess
+  add_passes(!viscous->active());    // large viscosities: those of the guess stay
   add_temperatures(stiff_heat && !par.thermal_pressure);    // no force depends on heat
   add(par.loops_of_flows, "flows", SLOPES | FORCES, FORCES, [this](StepData &) {
     flows->run([this]() {
@@ -507,8 +507,9 @@ void Fluid::sum_density()
 }
 
 /* ----------------------------------------------------------------------
-   Return the time for which internal energies lack the work of the pressure.  In a step, energies are half a step behind.
-   Their last rate has the velocities of half a step before, unless NoiseStage::share_work() corrects the rate.
+   Return the time for which internal energies lack the work of the pressure: 0 at the first forces.  Later, energies are of
+   the middle of the step, half a step behind.  Unless NoiseStage::share_work() corrects it, their last rate has the velocities
+   of half a step before, another half a step.
 ------------------------------------------------------------------------- */
 
 double Fluid::missing_time() const
@@ -529,6 +530,7 @@ void Fluid::begin_run(double dt, bool continues, const Changes &changes)
   continued = continues;
   set_step(dt);
   flows->forget();
+  densities_before.clear();
   checks_places = true;
   follows =
       model->choice.continuity && changes.places_alone() && model->hash() == model->hash_of_forces;
@@ -625,8 +627,8 @@ double Fluid::received_heat(int groupbit) const
 }
 
 /* ----------------------------------------------------------------------
-   Solve for the implicit velocities, after the passes of the guess.  The matrix is not symmetric if walls extend the velocity of the fluid, or with the
-   form P1 (64), bulk volume.
+   Solve for the implicit velocities, after the passes of the guess.  The matrix is not symmetric in two cases: walls extend
+   the velocity of the fluid, or the bulk term has the form volume, P1 (64).
 ------------------------------------------------------------------------- */
 
 void Fluid::find_velocity()
@@ -659,7 +661,7 @@ void Fluid::find_temperature()
 }
 
 /* ----------------------------------------------------------------------
-   Count the steps to the next diffusion of volume.  Repeated forces keep the rates of the last run.
+   Count the steps to the next diffusion of volume.  Repeated forces keep the count.
 ------------------------------------------------------------------------- */
 
 bool Fluid::diffusion_is_due()

@@ -163,17 +163,17 @@ namespace SPHDissipation {
     double state_energy(int groupbits) const;
 
     // temperatures(): get the temperatures of owned particles from the present densities and energies; particles without
-    // heat capacity and walls have 0.  set_temperatures(): set the temperatures of the particles of a group and of its open
-    // zones, at the present places, by function(particle).  Stop if a temperature is negative or a type has no heat
-    // capacity, with a message that names the user.
+    // heat capacity and walls have 0.  set_temperature(): set the energies and the first states of the particles of a group
+    // and of its open zones, at the present places, for the temperatures function(particle).  Stop if a temperature is
+    // negative or a type has no heat capacity, with a message that names the user.
 
     void temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
     // Values of the last forces: heating, see ForceStage::heating(); forces and torques of this style on owned particles
 
-    bool
-    has_forces() const;    // on all processors, for the particles that are there now; all must call
+    bool has_forces()
+        const;    // return true if the last forces are of the present particles; all processors must call
     virtual void heating(double *heat, double *power) const;
     static int number_of_heats();                        // numbers in power, one per channel
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank
@@ -270,7 +270,7 @@ namespace SPHDissipation {
     bool continued =
         false;    // the run continues the last one, with the velocities of its last step
     bool follows =
-        false;    // the first forces of the run change densities as their sums have changed
+        false;    // commands have moved particles: the first forces change densities as their sums have changed
     std::vector<double> densities_before;    // densities of owned particles before such forces
     bool changed =
         false;    // coefficients, or motions of walls, differ from those of the last forces

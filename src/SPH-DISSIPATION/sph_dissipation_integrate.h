@@ -23,8 +23,9 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   struct TimeStep {
-    double dtv, dtf;
-    double keep;             // 1; or 0: vest gets the increment alone
+    double dtv, dtf;    // time step; half of it times ftm2v
+    double
+        keep;    // 1; 0 if fix deform remaps velocities: add_remapped_velocity() adds v to vest later
     double extrapolation;    // time of vest, in half steps after the middle of the step
     bool shifted;            // a shift in this step: the forces of particles jump
     bool balanced;           // temp energy: internal energies get half of the rate at each end
@@ -163,9 +164,9 @@ namespace SPHDissipation {
     }
 
    private:
-    // Return, before half a kick, the heat that conserves the sum of kinetic and internal energy exactly.  The heat of the
-    // pair style is minus the work of its forces own at the velocity in the friction, acting.  Over half a kick, these forces
-    // do work at the mean velocity of the kick.  The result is the difference, energy; for torques likewise, with spins.
+    // Return, before half a kick, the heat that conserves the sum of kinetic and internal energy exactly.  own: forces of the
+    // pair style, whose heat is -own.acting, with the velocity acting of the friction.  The kick dv does the work
+    // own.(v + dv/2).  The result is dtv/2 own.(acting - v - dv/2), an energy; for torques likewise, with spins.
 
     template <class Velocity, class Acting, class Force>
     static SPH_FUNCTION double rest_of_heat(const TimeStep &now, int i, const Velocity &v,
@@ -192,8 +193,9 @@ namespace SPHDissipation {
     }
   };
 
-  // Diffusion of volume, at constant strains.  As internal energies, volumes get the old rate in a step, and half of the
-  // change of the rate when the next step begins: so, between steps, densities are the densities in the forces.
+  // Diffusion of volume, at constant strains.  A step changes volumes by dt times the last rate.  If the last forces have
+  // evaluated new rates, the next step begins with interval/2 times the change of the rate: so, between steps, densities are
+  // the densities in the forces.
 
   struct VolumeStep {
     double dt, interval;    // time step; time between two evaluations of the rates

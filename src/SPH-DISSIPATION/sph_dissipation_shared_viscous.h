@@ -268,7 +268,7 @@ namespace SPHDissipation {
     }
     this->solve_step();
     add_velocities(this->x.data());
-    std::vector<double> acting = rigid.of().guess;    // on the first processor, as the unknowns
+    std::vector<double> acting = rigid.of().guess;    // increments are on the first processor
     for (int k = 0; k < this->rows_of_bodies; k++)
       acting[k] += this->x[this->first_of_bodies() + k];
     rigid.act(acting.data());

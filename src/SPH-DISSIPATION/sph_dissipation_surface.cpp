@@ -82,7 +82,7 @@ void SurfaceStage::find(int bits)
     if (!(atom->mask[i] & bits)) continue;
     const double own = spacing_of(dim, atom->vfrac[i]);
     surface[i].spacing = own;
-    if (has_flux && own != last)
+    if (conducts && own != last)
       factor =
           flux_factor(kernel_lattice_sums(engine.constants().kernel, dim, support, last = own));
     surface[i].flux_volume = factor * atom->vfrac[i];
@@ -199,18 +199,21 @@ void SurfaceStage::find_depth(const Cells &cells, const std::vector<int> &owned)
 
 /* ----------------------------------------------------------------------
    Set the curvature, the divergence of the normals over the dimensions of the surface, by least squares from the normals
-   around a particle; 0 in concave edges, where normals turn too much for the mean normal of surface_heat().  A curved surface
-   fills the Gaussian of SurfacePlane less than its tangential plane, as if the surface were nearer: correct the depth, with
-   the curvature at the surface; none of it at edges, where the curvature at the surface is twice STRONG or more.
+   around a particle; 0 in concave edges, where normals turn too much for the mean normal of surface_heat().  A convex wall
+   fills the Gaussian of SurfacePlane less than a half space, so that the depth comes out too small: add the length by theory,
+   from the curvature at the surface.  The whole length is added up to the curvature STRONG/spacing, and nothing at edges,
+   from twice this curvature on.
 ------------------------------------------------------------------------- */
 
 void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &owned)
 {
-  constexpr double HOLLOW = -0.25, STRONG = 0.25;    // times the spacing
+  constexpr double HOLLOW = -0.25, STRONG = 0.25;    // curvatures times the spacing
+  constexpr double FLAT = 1e-9;                      // all particles around are on the normal
   const double support = engine.constants().support;
   const int dim = engine.constants().dim;
   for_each(owned, [&](int i) {
     Surface &s = surface[i];
+    s.flat_depth = s.depth;
     if (!(MathExtra::lensq3(s.normal) > 0.0)) return;
     const double radius = SurfacePlane::radius(support, s.spacing);
     double turn = 0.0, norm = 0.0;
@@ -223,12 +226,12 @@ void SurfaceStage::find_curvature(const Cells &cells, const std::vector<int> &ow
           (MathExtra::dot3(other.normal, r) - along * MathExtra::dot3(other.normal, s.normal));
       norm += weight * (rsq - along * along);
     });
+    if (!(norm > FLAT * s.spacing * s.spacing)) return;
     const double curvature = turn / norm;
     s.curvature = (curvature * s.spacing > HOLLOW) ? curvature : 0.0;
     const double width = SurfacePlane::WIDTH * s.spacing;
     const double bend = s.curvature / std::max(1.0 + s.curvature * s.depth, 0.5);
     const double known = std::clamp(2.0 - fabs(bend) * s.spacing / STRONG, 0.0, 1.0);
-    s.flat_depth = s.depth;
     s.depth = std::max(s.depth + 0.5 * (dim - 1) * width * width * known * bend, 0.0);
   });
 }

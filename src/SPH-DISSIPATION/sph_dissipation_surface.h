@@ -67,8 +67,8 @@ namespace SPHDissipation {
     }
 
     // volume(j): of particle j, 0 if j does not belong to the same boundary.  In the outer layer of a plane wall, the filled
-    // part is 1/2 + b g(0)/2 with the distance b between layers and the Gaussian g across the wall: half of space is filled
-    // without the layer, and half of the layer is missing.  The surface is b/2 away.
+    // part is 1/2 + b g(0)/2 with the distance b between layers and the Gaussian g across the wall: half of the layer more
+    // than half of space, as the whole layer counts.  The surface is b/2 away.
     template <class Volume>
     SurfacePlane(const Cells &cells, const double *place, double spacing, double support, int dim,
                  const Volume &volume)
@@ -106,7 +106,7 @@ namespace SPHDissipation {
     double memory_usage() const override { return bytes(surface); }
 
     std::vector<Surface> surface;    // by owned and ghost atom
-    bool has_flux = false;           // walls have a flux of heat, which needs flux_volume
+    bool conducts = false;           // boundaries conduct heat, which needs flux_volume
 
    private:
     const double *body = nullptr;

@@ -30,8 +30,9 @@ namespace SPHDissipation {
   // Extrapolation of a field q of the fluid behind a surface, by a least-squares fit with weights d^2.  d = distance of a
   // fluid particle from the surface; for small d, q/d is not a slope.  The fit needs the means <q d^3>, <q d^4>, and those
   // of d^3 to d^6.  With these weights, viscous forces damp differences between layers of particles not faster than inside
-  // of the fluid.  Each distance is at least CLOSEST spacings of the particles; the mean distance is at least CLOSEST_MEAN,
-  // the distance of the first layer on lattices.
+  // of the fluid.  Each distance is at least CLOSEST spacings of the particles, and the mean distance at least CLOSEST_MEAN
+  // spacings, a little less than the distance of the first layer of a lattice.  A wall particle without a known surface has
+  // the depth CLOSEST_MEAN spacings.
 
   constexpr double CLOSEST = 0.25;
   constexpr double CLOSEST_MEAN = 0.45;
@@ -57,8 +58,8 @@ namespace SPHDissipation {
     double d3, d4, d5, d6;
 
     // Fit q with zero at the surface: minimize <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2.  The
-    // second term makes the field straight deep in a wall, where only the first layer contributes.  The factor 1 + alike of
-    // <d^6> makes the field straight if all distances are equal.  The fit of a field without a bend is exact.  alike is
+    // second term makes the field straight deep in a wall, where only the first layer contributes.  <d^6> has the factor
+    // 1 + alike: if all distances are equal, the fit has no other solution than a straight field.  The fit of a field without a bend is exact.  alike is
     // smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next to the surface.
 
     static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
@@ -71,7 +72,8 @@ namespace SPHDissipation {
       return {0.0, norm * (f_d3 * sixth - f_d4 * d5), norm * (f_d4 * d4 - f_d3 * d5)};
     }
 
-    // The next two fits raise <d^6> or <d^5> by this larger share: so their values stay in the range of the fluid's values
+    // The next two fits multiply <d^6>, or <d^3> <d^5>, by 1 + DAMPING: so the fitted values stay in the range of the values
+    // of the fluid
 
     static constexpr double DAMPING = 0.1;
 
@@ -211,8 +213,8 @@ namespace SPHDissipation {
 
   // A fluid particle is inside a wall if boundary particles fill more than this part of its near support.  The near support
   // is the smallest support of a fluid, a few particle spacings wide.  Boundary particles fill half of the near support at a
-  // plane surface, 7/8 in the corner of a box, and more only inside.  A larger support is as full in a pore of the width of
-  // a particle.
+  // plane surface, 7/8 in the corner of a box, and more only inside.  In a larger support, a particle in a pore that is one
+  // spacing wide would count as inside.
 
   constexpr double INSIDE_WALL = 0.9;
 
@@ -402,8 +404,9 @@ namespace SPHDissipation {
   // Return the heat per time that the fluid particle f gets from the surface by a wall particle w, r = x_w - x_f.  The sum
   // of 2 V_f V_w F |r.n| over all pairs is the area of the surface, if n is the normal where the pair crosses the surface:
   // the integral of F z^2 over one half of space is 1/2.  C = divergence of the normals over the dimensions of the surface.
-  // hollow, C < 0: n is on average the normal in the middle, n_w - C r/2 along the surface.
-  // convex: n is the normal of a sphere of radius 1/C + h, (n_w - C s r)/(1 + C h), of length 1 at the part s of r.
+  // C <= 0, hollow or plane: n is on average the normal in the middle, n_w - C t/2, t = part of r along the surface.
+  // C > 0, convex: the surface is a sphere of radius 1/C + h, h = flat_depth.  The pair crosses the sphere at x_w - s r, with
+  // the normal (n_w - C s r)/(1 + C h), and s, at most 1, is the part of r at which this normal has the length 1.
   // V_w is the reference volume times flux_factor(): then the sum is exact on cubic lattices.
 
   SPH_FUNCTION double surface_heat(double flux, double vol_f, const double *r, double slope,
@@ -460,8 +463,8 @@ namespace SPHDissipation {
   }
 
   // Return the first c of a body particle with density continuity, and set its rho_sum.  If fluid fills the rest of the
-  // support, c gives the pressure of this fluid at rest.  If the rest is empty, c belongs to the body alone: water that comes
-  // later does not compress this particle.  others, sum, gravity: see set_frozen()
+  // support, c gives the pressure of this fluid at rest.  If fluid fills at most EMPTY of the rest, c belongs to the body
+  // alone: fluid that comes later does not compress this particle.  In between, c is the linear mean of both.  others, sum, gravity: see set_frozen()
 
   template <class Rows>
   SPH_FUNCTION double begin_frozen(const Rows &rows, int i, double others, const BoundarySum *sum,

@@ -730,6 +730,26 @@ def test_noise_at_walls(lammps, style, dim, ranks, newton, options):
     assert not any("on the host" in line or "legacy" in line for line in result.warnings), result.warnings
 
 
+@pytest.mark.parametrize("options, ranks", [("temp 0.05 1234", 1), ("temp 0 1234", 1), ("density continuity", 2)])
+def test_walls_that_go(lammps, options, ranks):
+    """Walls that repel the fluid, not at the temperature 0; in a second run they are gone."""
+    style = "sph/bulk"
+    particles = disordered(2, 20, seed=29, jitter=0.45, speed=0.2, spread=0.0)
+    fixes = CAVITY + integrate(style, group="REST") + "fix FLOOR FLOOR sph/wall\nfix LID LID sph/wall\ntimestep 0.005\n"
+    text = script(style, particles, fluids(style, 2, options=options), 10, fixes=fixes, every=15)
+    gone = "unfix FLOOR\nunfix LID\ngroup GONE subtract all REST\ndelete_atoms group GONE compress no\nrun 5\n"
+    compare(lammps, style, particles, text + gone, ranks)
+
+
+def test_diffusion_with_steps_of_several_lengths(lammps, style):
+    """The diffusion of volume takes the time step of the last forces."""
+    particles = disordered(2, 14, seed=23, jitter=0.2, spread=0.05)
+    text = script(style, particles, fluids(style, 2, options="density continuity delta 0.5"), 10, every=40)
+    steps = "".join(f"timestep {step}\nrun 10 pre no\n" for step in (0.002, 0.01, 0.004))
+    compare(lammps, style, particles, text + steps)
+    compare(lammps, style, particles, text + "fix DT all sph/dt 4 max 0.01\nrun 30\n")
+
+
 @pytest.mark.parametrize("options", ["", " kernel quintic volume mass"])
 def test_noise_of_drag(lammps, style, options):
     """Random forces of single particles and of the pairs of two fluids, with stress of each particle."""

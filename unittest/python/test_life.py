@@ -41,6 +41,20 @@ def test_minimize_after_a_run_reaches_the_tolerance(lammps, style, ranks):
     assert float(final) < 0.05 * float(initial)
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_densities_stay_in_a_minimization(lammps, ranks):
+    """density continuity: particles that a command deletes or creates take nothing from the densities of others."""
+    text = start(lammps, "sph/bulk", disordered(2, 12, speed=0.1)).replace("pair_style sph/bulk", "pair_style sph/bulk density continuity")
+    text += ("region LEFT block INF 6 INF INF INF INF\ncompute RHO all property/atom rho\ncompute MIN all reduce min c_RHO\ncompute MAX all reduce max c_RHO\n"
+             "thermo_style custom step atoms c_MIN c_MAX\nrun 5\ndelete_atoms region LEFT compress no\n" + FULL)
+    kept = lammps(text + "run 0\n", ranks=ranks).thermo()[-1]
+    found = lammps(text + "minimize 0 0 0 0\n", ranks=ranks).thermo()[-1]
+    assert kept["Atoms"][-1] < 100
+    for name in "c_MIN", "c_MAX":
+        assert found[name][0] == pytest.approx(kept[name][-1], rel=1e-14)
+    assert kept["c_MIN"][-1] > 0.9
+
+
 def test_fire_does_not_heat(lammps):
     text = start(lammps, "sph/bulk", disordered(2, 12, speed=2.0))
     result = lammps(text + "compute E all sph/energy\nthermo_style custom step pe c_E[2]\nthermo 10\n" + FULL

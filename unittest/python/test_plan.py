@@ -166,15 +166,18 @@ def test_first_inputs_are_short(name):
 
 
 def test_run_and_plot(tmp_path):
-    """... write input, log, dump, and figure, and do not replace another input."""
+    """... write input, log, dump, and figure; another input that is there gets another name."""
     command = [str(ROOT / "sphd"), "plan", *"--rho 1 --mu 0.01 --kappa 0.1 --wavelength 2 --c 5 --particles 14 --time 1.2 --plot --lmp".split(), LMP]
     for _ in range(2):
         done = subprocess.run(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
         assert done.returncode == 0 and done.stdout.endswith("plan: wrote in.sound, log.sound, sound.dump, sound.png\n"), done.stderr
         assert re.search(r"^plan: frequency 2.\d+, theory 2.499: \S+ %\nplan: rate of decay ", done.stdout, re.MULTILINE)
     assert (tmp_path / "sound.png").read_bytes()[:4] == b"\x89PNG" and "v_theory" in (tmp_path / "log.sound").read_text()
+    old = (tmp_path / "in.sound").read_text()
+    (tmp_path / "in.sound.1").write_text("mine\n")
     done = subprocess.run([*command, "--velocity", "0.1"], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-    assert done.returncode == 1 and "in.sound is there already" in done.stderr
+    assert done.returncode == 0 and done.stdout.startswith("plan: in.sound was another input; it is now in.sound.2\n"), done.stderr
+    assert (tmp_path / "in.sound.2").read_text() == old and (tmp_path / "in.sound.1").read_text() == "mine\n" and "velocity 0.1," in (tmp_path / "in.sound").read_text()
 
 
 def test_narrow_column_in_a_short_tank(lammps):
@@ -309,6 +312,15 @@ def test_a_kappa_that_is_not_given():
         assert first.endswith(f"units {'si' if args.fluid else 'lj'}{note}") and "NOT GIVEN" not in "".join(others)
 
 
+def test_notes_in_the_header():
+    """... on the dimension of kappa, on gravity, and on a channel at a large Reynolds number."""
+    sound, channel = "--rho 1 --mu 0.03 --kappa 0.1 --wavelength 2 --c 5 --particles 14", "--rho 1 --channel 1 --velocity 1 --mu"
+    for case, note, there in [(sound, "has kappa + mu/3 = 0.11 here", True), (f"{sound} --dim 3", "kappa + mu/3", False), ("--fluid water --wavelength 1e-6", "kappa + mu/3", False),
+                              (f"{channel} 0.01", "rows of particles may break up", True), (f"{channel} 0.02", "may break up", False),
+                              ("--rho 1 --mu 1e-6 --column 1", "; gravity 1;", True), ("--fluid water --column 1", "; gravity 9.81;", True)]:
+        assert (note in planner.plan_of(planner.arguments(case.split())).input()) == there, case
+
+
 def test_proposal():
     """A flow for which the constant does not hold gets the lines of the relaxing form, those that --relax prints."""
     case = "--fluid CO2 --length 1e-5 --velocity 1"
@@ -322,7 +334,11 @@ def test_proposal():
 @pytest.mark.parametrize("case, message", [
     ("--fluid water --length 1", "give --length and --velocity, or"), ("--fluid water --length 1 --wavelength 1", "give --length and --velocity, or"),
     ("--fluid water --frequency 1 --wavelength 1", "or --frequency"), ("--fluid He --wavelength 1 --relax", "--relax is for a gas"),
-    ("--rho 1 --mu 1 --wavelength 1", "needs its speed"), ("--rho 1 --mu 1 --wavelength 1 --c 5", "give --kappa"), ("--rho 1 --mu 1 --frequency 1 --c 5", "give --kappa"),
+    ("--rho 1 --mu 1 --wavelength 1", "needs its speed after --c, for instance --c 1920"), ("--fluid toluene --rho 900", "--rho cannot be given with --fluid"),
+    ("--fluid toluene --kappa 5e-3", "--kappa cannot be given with --fluid"), ("--fluid water --mu 0", "--mu cannot be given with --fluid"),
+    ("--column 0.3", "give --fluid, or --rho and --mu\n"), ("--wavelength 1", "or --rho, --mu, --kappa, and --c\n"),
+    ("--fluid glycerol --wavelength 1", "give --rho, --mu, --kappa, --c, and --units si"), ("--fluid glycerol --column 1", "give --rho, --mu, --kappa, and --units si"),
+    (f"{COLLOID} --dim 2", "--dim 2 is not for --colloid; the page Howto_sph_bodies has"), ("--rho 1 --mu 1 --wavelength 1 --c 5", "give --kappa"), ("--rho 1 --mu 1 --frequency 1 --c 5", "give --kappa"),
     ("--rho 1 --mu 1 --column 1 --length 1", "--length is not for --column"), ("--rho 1 --mu 1 --column 1 --velocity 1", "--velocity is not for --column"),
     ("--rho 1 --mu 1 --colloid 1", "--colloid needs --temperature"), ("--rho 1 --mu 0 --colloid 1 --temperature 1", "a shear viscosity"),
     ("--rho 1 --mu 1 --colloid 1 --temperature 1 --length 1", "--length is not for --colloid"),
@@ -342,7 +358,7 @@ def test_proposal():
     ("--fluid CO2 --frequency 1e-300", "beyond what a computer"), ("--rho 1 --mu 1e-320 --kappa 0 --length 1e-10 --velocity 1", "beyond what a computer"),
     ("--rho 1e-300 --mu 1e300 --length 1 --velocity 1", "beyond what a computer"),
     (f"--rho 1 --mu 1 {BOX} --support 1.07", "reaches no neighbor of this lattice, the nearest are at 1.07"),
-    (f"--rho 1 --mu 1 {BOX} --dim 3 --support 1.09", "reaches no neighbor of this lattice, the nearest are at 1.09"), (BOX, "give --fluid"), (f"--fluid mud {BOX}", "no fluid mud"), (f"--fluid methanole {BOX}", "which have: methanol "), ("--fluid CO2 --frequency 40kHz", "a number without a unit, such as 40e3, not 40kHz"), (f"--fluid water --mu 1 {BOX}", "give --fluid"),
+    (f"--rho 1 --mu 1 {BOX} --dim 3 --support 1.09", "reaches no neighbor of this lattice, the nearest are at 1.09"), (BOX, "give --fluid"), (f"--fluid mud {BOX}", "no fluid mud"), (f"--fluid methanole {BOX}", "which have: methanol "), ("--fluid CO2 --frequency 40kHz", "a number without a unit, such as 40e3, not 40kHz"), (f"--fluid water --mu 1 {BOX}", "--mu cannot be given with --fluid"),
     (f"--rho 1 {BOX}", "--mu is missing"), (f"--rho 1 --mu 1 {BOX} --c real", "for --fluid"), (f"--rho 0 --mu 1 {BOX}", "must be > 0"),
     (f"--rho 1 --mu 1 {BOX} --support 7", "two support radii"), (f"--rho 1 --mu 1 {BOX} --dim 3 --shear morris", "give --kappa"),
     (f"--rho 1 --mu 1 {BOX} --fraction 2", "--fraction"), (f"{WATER} --units lj", "leave --units out"),
