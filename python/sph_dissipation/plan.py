@@ -68,7 +68,7 @@ BOLTZMANN = {"lj": 1.0, "si": 1.380649e-23}
 LATTICE = {2: ("hex", math.sqrt(2 / math.sqrt(3)), 2, (1, math.sqrt(3))), 3: ("bcc", 2 ** (1 / 3), 2, (1, 1, 1))}
 
 
-BREAKUP = 60              # Reynolds number of a channel, from which on its rows of particles may break up
+BREAKUP = 4               # Reynolds number of a channel over its rows of particles, from which on the rows may break up
 STIFF = 10.0      # times the step of sound, from which rate of the viscous terms on they get a solver of their own,
 STIFFER = 300.0   # and from which on one that damps fast motions at once; see the page about large viscosities
 MOST = 2**31 - 1          # steps of LAMMPS's run command, and IDs of particles
@@ -627,7 +627,8 @@ class Channel(Plan):
         args = self.args
         yields = f", yield stress {self.stress:g}: {100 * self.plug:.2g} % of the channel moves as a plug" if self.stress else ""
         reynolds = self.rho * args.velocity * args.channel / self.mu
-        note = ["                    NOTE: rows of particles may break up: the flow rate may be wrong by 10 percent"] if reynolds > BREAKUP else []
+        rows = math.ceil(reynolds / BREAKUP)
+        note = [f"NOTE                take --particles {rows}: fewer rows may break up, and the flow rate may be wrong by 10 percent"] if rows > args.particles else []
         return [f"Reynolds number     {reynolds:.4g}, Mach number {args.velocity / self.c0:.3g}{yields}", *note,
                 f"force               {self.force:.5g} per mass, which gives the stress {self.at_wall:.5g} at the walls",
                 f"theory              mean velocity {self.mean():.5g} in the end, from rest within 0.1 % after {0.7 * self.rho * args.channel**2 / self.mu:.4g}"]

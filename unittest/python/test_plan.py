@@ -316,7 +316,7 @@ def test_notes_in_the_header():
     """... on the dimension of kappa, on gravity, and on a channel at a large Reynolds number."""
     sound, channel = "--rho 1 --mu 0.03 --kappa 0.1 --wavelength 2 --c 5 --particles 14", "--rho 1 --channel 1 --velocity 1 --mu"
     for case, note, there in [(sound, "has kappa + mu/3 = 0.11 here", True), (f"{sound} --dim 3", "kappa + mu/3", False), ("--fluid water --wavelength 1e-6", "kappa + mu/3", False),
-                              (f"{channel} 0.01", "rows of particles may break up", True), (f"{channel} 0.02", "may break up", False),
+                              (f"{channel} 0.01 --particles 16", "take --particles 25: fewer rows may break up", True), (f"{channel} 0.01", "may break up", False),
                               ("--rho 1 --mu 1e-6 --column 1", "; gravity 1;", True), ("--fluid water --column 1", "; gravity 9.81;", True)]:
         assert (note in planner.plan_of(planner.arguments(case.split())).input()) == there, case
 
