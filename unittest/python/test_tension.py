@@ -386,7 +386,7 @@ def root_of_wave(k, nu, sigma):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("pb, temp, frequency, decay", [(8.0, "", 0.93, (1.5, 3.0)), (8.0, "temp 0.002 1", 0.96, (1.5, 2.5)), (0.0, "temp 0.002 1", 0.85, (0.7, 1.7))])
+@pytest.mark.parametrize("pb, temp, frequency, decay", [(8.0, "", 0.93, 2.3), (8.0, "temp 0.002 1", 0.96, 1.9), (0.0, "temp 0.002 1", 0.87, 1.1)])
 def test_wave_of_an_interface(lammps, pb, temp, frequency, decay):
     """Frequency and decay over those of linear theory; a wave of 32 spacings with a small viscosity, in both planes between two fluids."""
     n, amplitude, nu = 32, 1.6, 0.024
@@ -409,7 +409,7 @@ def test_wave_of_an_interface(lammps, pb, temp, frequency, decay):
         found.append(min(fits, key=lambda fit: fit.cost).x[[2, 1]] / (omega, rate))
     print(pb, temp, np.round(found, 3))
     assert np.mean(found, axis=0)[0] == pytest.approx(frequency, abs=0.06)
-    assert decay[0] < np.mean(found, axis=0)[1] < decay[1]
+    assert np.mean(found, axis=0)[1] == pytest.approx(decay, abs=0.4)
 
 
 # ---- bad input ---------------------------------------------------------------------------------------------------
