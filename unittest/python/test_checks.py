@@ -359,7 +359,8 @@ def test_particles_in_the_same_place(lammps, newton, ranks):
         found = [re.search(r"(\d+) pairs of particles are in the same place, one of them particle \d+:", line) for line in result.warnings]
         assert [int(one[1]) for one in found if one] == [number] * (number > 0)
     result = lammps(base.format(regions.format(5, 5)) + "run 1\n", ranks=ranks, check=False)
-    assert "24 pairs of particles are in the same place" in result.log and "is inside a wall in step 0" in result.output
+    assert "is inside a wall in step 0" in result.output
+    assert ranks > 1 or "24 pairs of particles are in the same place" in result.log    # the processor that stops does not wait for the log of the first
 
 
 def test_a_few_free_particles_are_no_fluid(lammps):

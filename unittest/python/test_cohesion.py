@@ -175,7 +175,7 @@ def wave(t, a, b, w, phase, c):
 def test_frequency_of_drops(lammps, dim, radius, options, wanted):
     """The tension by the frequency of the oscillation, over sigma; omega^2 = 6 sigma/(rho r^3) and 8 sigma/(rho r^3).  The mean of three seeds.
 
-    The oscillation decays 1.4 to 2.4 times as fast as by viscosity alone, in three dimensions 0.9 to 1.7 times; Ohnesorge numbers 0.02 to 0.03."""
+    The oscillation decays 1.4 to 2.5 times as fast as by viscosity alone, in three dimensions 0.9 to 1.7 times; Ohnesorge numbers 0.02 to 0.03."""
     optimize = pytest.importorskip("scipy.optimize")
     particles = ellipse(dim, radius, 1.3 if options else 1.15)
     r = (len(particles) / {2: np.pi, 3: 4 * np.pi / 3}[dim]) ** (1 / dim)
@@ -191,7 +191,7 @@ def test_frequency_of_drops(lammps, dim, radius, options, wanted):
     viscous = {2: 4, 3: 5}[dim] * 0.1 / r**2
     print(f"{dim}d, radius {r:.2f}, {options or 'no noise'}: tension {np.round(tension, 3)} sigma, decay over that by viscosity {np.round(np.array(decay) / viscous, 2)}")
     assert np.mean(tension) == pytest.approx(wanted, rel=0.04)
-    least, most = {2: (1.4, 2.4), 3: (0.9, 1.7)}[dim]
+    least, most = {2: (1.4, 2.5), 3: (0.9, 1.7)}[dim]
     assert least < np.mean(decay) / viscous < most
 
 
