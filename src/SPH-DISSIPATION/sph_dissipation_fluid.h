@@ -170,10 +170,10 @@ namespace SPHDissipation {
     void temperatures(double *) const;
     void set_temperature(int groupbit, const std::function<double(int)> &, const std::string &user);
 
-    // Values of the last forces: heating, see ForceStage::heating(); forces and torques of this style on owned particles
+    // Values of the last forces: heating, see ForceStage::heating(); forces and torques of this style on owned particles.
+    // has_forces(): return true if the last forces are of the present particles; all processors must call
 
-    bool has_forces()
-        const;    // return true if the last forces are of the present particles; all processors must call
+    bool has_forces() const;
     virtual void heating(double *heat, double *power) const;
     static int number_of_heats();                        // numbers in power, one per channel
     virtual double received_heat(int groupbit) const;    // by conduction, per time, on this rank

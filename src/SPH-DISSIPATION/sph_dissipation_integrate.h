@@ -23,9 +23,8 @@ namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   struct TimeStep {
-    double dtv, dtf;    // time step; half of it times ftm2v
-    double
-        keep;    // 1; 0 if fix deform remaps velocities: add_remapped_velocity() adds v to vest later
+    double dtv, dtf;         // time step; half of it times ftm2v
+    double keep;             // 1; 0 if add_remapped_velocity() adds v to vest later
     double extrapolation;    // time of vest, in half steps after the middle of the step
     bool shifted;            // a shift in this step: the forces of particles jump
     bool balanced;           // temp energy: internal energies get half of the rate at each end

@@ -59,8 +59,9 @@ namespace SPHDissipation {
 
     // Fit q with zero at the surface: minimize <d^2 (q - slope d - bend d^2)^2> + STIFF depth^2 (bend depth^2)^2.  The
     // second term makes the field straight deep in a wall, where only the first layer contributes.  <d^6> has the factor
-    // 1 + alike: if all distances are equal, the fit has no other solution than a straight field.  The fit of a field without a bend is exact.  alike is
-    // smaller for the spin, because diffusion of the spin and the vortex viscosity bend the spin next to the surface.
+    // 1 + alike: if all distances are equal, the fit has no other solution than a straight field.  The fit of a field
+    // without a bend is exact.  alike is smaller for the spin, because diffusion of the spin and the vortex viscosity bend
+    // the spin next to the surface.
 
     static constexpr double STIFF = 0.001, ALIKE = 0.01, ALIKE_SPIN = 0.001;
 
@@ -464,7 +465,8 @@ namespace SPHDissipation {
 
   // Return the first c of a body particle with density continuity, and set its rho_sum.  If fluid fills the rest of the
   // support, c gives the pressure of this fluid at rest.  If fluid fills at most EMPTY of the rest, c belongs to the body
-  // alone: fluid that comes later does not compress this particle.  In between, c is the linear mean of both.  others, sum, gravity: see set_frozen()
+  // alone: fluid that comes later does not compress this particle.  In between, c is the linear mean of both.  others, sum,
+  // gravity: see set_frozen()
 
   template <class Rows>
   SPH_FUNCTION double begin_frozen(const Rows &rows, int i, double others, const BoundarySum *sum,
