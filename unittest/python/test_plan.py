@@ -130,6 +130,14 @@ def test_channel(lammps, case, error):
     assert np.abs(last["vx"][inside] - exact).max() < 2.5 * error * plan.args.velocity
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("rows, lacks", [(16, (0.06, 0.1)), (32, (-0.005, 0.005))])
+def test_rows_of_a_channel(lammps, rows, lacks):
+    """At a Reynolds number of 100, the mean velocity is below theory with too few rows, and correct with a third as many rows."""
+    (columns,) = lammps(planner.Channel(planner.arguments(f"--rho 1 --mu 0.01 --channel 1 --velocity 1 --particles {rows}".split())).input(), timeout=1800).thermo()
+    assert lacks[0] < 1.0 - columns["v_mean"][-1] / columns["v_theory"][-1] < lacks[1]
+
+
 COLLOID = "--rho 1 --mu 0.07 --kappa 0.2 --colloid 2 --temperature 0.001"
 
 
