@@ -78,8 +78,7 @@ template <class DeviceType> std::string PairSPHBulkKokkos<DeviceType>::on_host_b
   for (const auto &ifix : modify->get_fix_list()) {
     auto *one = dynamic_cast<Boundary *>(ifix);
     if (one && one->contact()) return fmt::format("fix {} contact", ifix->style);
-    if ((one && !dynamic_cast<BoundaryKokkos<DeviceType> *>(ifix)) ||
-        dynamic_cast<OpenZone *>(ifix))
+    if (one && !dynamic_cast<BoundaryKokkos<DeviceType> *>(ifix))
       return fmt::format("fix {}", ifix->style);
     auto *integrator = dynamic_cast<FixSPHBulk *>(ifix);
     if (integrator && integrator->has_viscous_stage()) {
@@ -107,6 +106,7 @@ std::string PairSPHBulkKokkos<DeviceType>::viscous_on_host_because() const
     const auto *one = dynamic_cast<Boundary *>(modify->fix[k]);
     if (one && one->has_bodies()) return " with bodies";
     if (one && fluid->model->choice.thermal) return " with temp and walls";
+    if (dynamic_cast<OpenZone *>(modify->fix[k])) return " with open ends";
     const auto *deform = dynamic_cast<FixDeform *>(modify->fix[k]);
     if (deform && deform->remapflag == Domain::V_REMAP) return " with fix deform remap v";
   }

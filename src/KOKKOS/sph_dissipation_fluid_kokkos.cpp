@@ -30,6 +30,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_noise_kokkos.h"
+#include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_report.h"
 #include "sph_dissipation_shared_stages.h"
 #include "sph_dissipation_sums_kokkos.h"
@@ -290,7 +291,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
   }
   space.copy_coeffs();
   atomKK->sync(pair->execution_space, HEAT);
-  state_device.advance(not_fluid(), not_fluid(), nullptr, 0);    // no open zones here
+  state_device.advance(not_fluid(), boundary->bits(), nullptr, 0);
   atomKK->modified(pair->execution_space, STATES_MASK);
 }
 
@@ -349,6 +350,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::list_stages()
        [this](StepData &step) {
          step.nbeyond = pressure_device.run(bound_device(), boundary->bits());
        }},
+      {"zones", call(&Own::set_zones)},
+      {"ledger", call(&Own::sum_impacts)},
       {"kept viscosities",
        [this](StepData &) {
          viscosity_device.keep();
@@ -538,6 +541,92 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &s
 }
 
 /* ----------------------------------------------------------------------
+   Set the states of the zones on the host, for which the particles near the zones are copied; then the ghosts.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::set_zones(StepData &)
+{
+  const bool varies = std::any_of(open->all().begin(), open->all().end(), [](const OpenZone *one) {
+    return one->zone_varies();
+  });
+  if (varies) {    // variables may read any particles
+    atomKK->modified(pair->execution_space, space.modified_mask());
+    atomKK->sync(Host, ALL_MASK);
+  } else if (neighbor->ago == 0)
+    atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | RMASS_MASK);
+  engine->prepare_rows();
+  const ParticleRows &there = space.rows(), &here = engine->rows();
+  const OpenGroups groups = open->groups();
+  std::vector<int> particles;
+  for (const OpenZone *const one : open->all())
+    particles.insert(particles.end(), one->zone_particles().begin(), one->zone_particles().end());
+  std::sort(particles.begin(), particles.end());
+  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
+  near_zones.set(particles);
+  const auto add = [this](double *device, double *host, std::size_t width = 1) {
+    near_zones.add(Field{device, width, static_cast<int>(width)}, host, width);
+  };
+  add(there.particle->x, here.particle->x, sizeof(Particle) / sizeof(double));
+  add(there.zeta_term, here.zeta_term);
+  if (there.par.states) add(there.state_pressure, here.state_pressure);
+  for (double *ParticleRows::*const one :
+       {&ParticleRows::rho, &ParticleRows::drho, &ParticleRows::vfrac, &ParticleRows::esph})
+    add(there.*one, here.*one);
+  Flows::visit(there.par.flows, [&](auto, int flow) {
+    add(&there.flow[flow]->vol, &here.flow[flow]->vol, sizeof(FlowRow) / sizeof(double));
+  });
+  near_zones.get();
+  open->set_states();
+  near_zones.put();
+
+  const ParticleRows rows = there;
+  double *const place = reach(places, "sph:places", atom->nmax);
+  int *const mask = atomKK->k_mask.template view<DeviceType>().data();
+  const int nlocal = atom->nlocal;
+  space.for_each(
+      "sph:places", nlocal, KOKKOS_LAMBDA(int i) { place[i] = groups.place_of(mask[i]); });
+  space.forward({field(rows.particle, &rows.particle->vol, 2), {place, 1, 1}});
+  Flows::visit(rows.par.flows, [&](auto, int flow) {
+    space.forward({field(rows.flow[flow], &rows.flow[flow]->vol, 3)});
+  });
+  space.for_each(
+      "sph:ghosts_of_zones", atom->nghost, KOKKOS_LAMBDA(int k) {
+        const int i = nlocal + k;
+        mask[i] = groups.mask_at(place[i], mask[i]);
+        if (!(place[i] > 0.0)) return;
+        rows.vfrac[i] = rows.particle[i].vol;
+        rows.rho[i] = rows.rmass[i] / rows.vfrac[i];
+      });
+  atomKK->modified(pair->execution_space, MASK_MASK);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::sum_impacts(StepData &)
+{
+  with_form(space.data->par.terms(), [&](auto form) {
+    run_impacts<decltype(form)>();
+  });
+}
+
+template <class DeviceType> template <class Form> void FluidKokkos<DeviceType>::run_impacts()
+{
+  for (std::size_t k = 0; k < open->all().size(); k++) {
+    EV_FLOAT sum;
+    Kokkos::parallel_reduce("sph:impact", Kokkos::RangePolicy<DeviceType>(0, near_zones.size()),
+                            ZoneImpactKokkos<DeviceType, Form>{*space.data, near_zones.list,
+                                                               places.data(), k + 1.0,
+                                                               model->constants().conducts()},
+                            sum);
+    OpenImpact impact;
+    std::copy_n(sum.v, 3, impact.force);
+    std::copy_n(sum.v + 3, 3, impact.torque);
+    impact.power = sum.evdwl;
+    open->all()[k]->set_impact(impact);
+  }
+}
+
+/* ----------------------------------------------------------------------
    Add the symmetric friction of boundaries and its noise; there are no viscosities by rate.
 ------------------------------------------------------------------------- */
 
@@ -678,7 +767,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 {
   return Fluid::memory_usage() + space.memory_usage() + boundary_device->memory_usage() +
       limit_device.memory_usage() + viscous_device.memory_usage() + shift_device.memory_usage() +
-      diffusion_device.memory_usage() + bytes_of(tension);
+      diffusion_device.memory_usage() + bytes_of(tension, places) + near_zones.memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */

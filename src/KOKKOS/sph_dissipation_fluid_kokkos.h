@@ -17,6 +17,7 @@
 #include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_noise_data.h"
+#include "sph_dissipation_open_kokkos.h"
 #include "sph_dissipation_space_kokkos.h"
 #include "sph_dissipation_viscous.h"
 
@@ -68,6 +69,8 @@ namespace SPHDissipation {
     void set_velocity(StepData &);
     void set_noise(StepData &);
     void sum_forces(StepData &);
+    void set_zones(StepData &);
+    void sum_impacts(StepData &);
     void add_wall_friction(StepData &);
     void sum_tension(StepData &);
     void sum_flows(StepData &);
@@ -108,6 +111,8 @@ namespace SPHDissipation {
     Kokkos::View<double *, DeviceType> tension;    // energies of owned particles in the last forces
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
     ViscousStage<Space> viscous_device;
+    SomeParticlesKokkos<DeviceType> near_zones;    // OpenZone::zone_particles() of all zones
+    Kokkos::View<double *, DeviceType> places;     // see OpenGroups
 
     bool has_own_forces() const override;
     double wall_energy(double *) const override;
@@ -117,6 +122,7 @@ namespace SPHDissipation {
     double tension_energy(double *, int groupbit) const override;
     const double *bound_device() const;    // see Fluid::bound()
     template <class K, int DIM> void run_diffusion();
+    template <class Form> void run_impacts();
     template <class K, class Form> void run_wall_friction(const StepData &);
     template <class K, class Form, class Pairs>
     void run_noise(const StepData &, int n, const Pairs &);

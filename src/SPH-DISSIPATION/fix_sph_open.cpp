@@ -303,6 +303,11 @@ void FixSPHOpen::find_members()
       members.push_back(i);
 }
 
+bool FixSPHOpen::zone_varies() const
+{
+  return values->vary();
+}
+
 /* ----------------------------------------------------------------------
    Return true if another fix, such as sph/refine, may have changed number and order of the particles in this step.
 ------------------------------------------------------------------------- */

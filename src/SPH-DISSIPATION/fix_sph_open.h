@@ -68,9 +68,17 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int zone_bit() const override { return groupbit; }
   int fluid_bit() const override { return fluidbit; }
   bool zone_near(const double *, double) const override;
+  const std::vector<int> &zone_particles() const override { return members; }
+  bool zone_varies() const override;
   void measure(const SPHDissipation::OpenStage &, std::vector<double> &) override;
   void set_states(SPHDissipation::OpenStage &, const double *) override;
   void set_impact(const SPHDissipation::OpenImpact &) override;
+
+ protected:
+  SPHDissipation::Fluid *fluid = nullptr;
+  std::vector<int> members;    // owned particles of the zone, and fluid that may reach the zone
+
+  bool has_lost_members() const;
 
  private:
   std::unique_ptr<SPHDissipation::OpenPlane> plane;
@@ -79,7 +87,6 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   std::unique_ptr<SPHDissipation::OpenCondition> condition;
   std::unique_ptr<SPHDissipation::ZoneLattice> lattice;
   std::unique_ptr<SPHDissipation::OpenBalance> balance;
-  SPHDissipation::Fluid *fluid = nullptr;
   class FixSPHBulk *integrator = nullptr;    // moves the fluid
   SPHDissipation::Fields *fields = nullptr;
   std::string fluid_name;    // name of the group of the fluid
@@ -87,9 +94,8 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   double radius = 0.0;    // of the fluid measured around a node of the plane
   double area = 0.0;      // cross section of a row; 0: the zone has a spacing
   double my_longest = 0.0,
-         longest = 0.0;        // largest time of sound per support radius near the plane
-  std::vector<int> members;    // owned particles of the zone, and fluid that may reach the zone
-  bool is_new = false;         // no forces have been computed with this zone
+         longest = 0.0;    // largest time of sound per support radius near the plane
+  bool is_new = false;     // no forces have been computed with this zone
   bool supersonic = false, gap = false;    // true: a warning was given
   bool set_up = false;                     // setup has run since the fix was defined
   bool totals_known = false;
@@ -104,7 +110,6 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   void set_times(const double *crossings);
   void measure_sound(std::vector<double> &);
   void find_members();
-  bool has_lost_members() const;
   void warn_of_other_plane();
   void enter(int i, const double *v);
   void compress(int i);

@@ -85,7 +85,7 @@ void FixSPHOpen::check_groups(int fluid_group)
     error->all(FLERR, "Fix {}: {} particles are in both groups {} and {}", style, all[1], zone_name,
                fluid_name);
 
-  for (const auto &other : modify->get_fix_by_style("^sph/open$"))
+  for (const auto &other : modify->get_fix_by_style("^sph/open"))
     if (other != this && other->igroup == igroup)
       error->all(FLERR, "Fix {} {}: group {} has the zone of fix {} already", style, id, zone_name,
                  other->id);
@@ -132,7 +132,7 @@ void FixSPHOpen::check_places()
   bigint number[3] = {0, 0, 0}, all[3];           // fluid behind, zone in front, others in the zone
   const double slack = 1.0e-6 * plane->length;    // particles may be placed on the plane
   int others = 0;
-  for (const auto &other : modify->get_fix_by_style("^sph/open$"))
+  for (const auto &other : modify->get_fix_by_style("^sph/open"))
     if (other != this) others |= other->groupbit;
   for (int i = 0; i < atom->nlocal; i++) {
     const double height = plane->height(atom->x[i]);

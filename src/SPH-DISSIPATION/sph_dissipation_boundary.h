@@ -127,6 +127,12 @@ namespace SPHDissipation {
     // Return whether a particle at x may have pairs across the border of zone and fluid, if pairs are as long as reach
     virtual bool zone_near(const double *x, double reach) const = 0;
 
+    // Return the owned particles of the zone, and those of the fluid that may have pairs across the border until the next
+    // neighbor list
+    virtual const std::vector<int> &zone_particles() const = 0;
+
+    virtual bool zone_varies() const = 0;    // return whether variables have prescribed values
+
     // Append numbers of this processor, as many on each processor; set_states() gets the sums over all processors.  One
     // message has the numbers of all zones
     virtual void measure(const OpenStage &, std::vector<double> &mine) = 0;

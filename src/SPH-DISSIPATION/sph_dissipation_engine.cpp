@@ -202,6 +202,27 @@ LoopData Engine::part(int thread) const
   return part;
 }
 
+/* ---------------------------------------------------------------------- */
+
+void Engine::grow_flows()
+{
+  for (int k = 0; k < Flows::NUMBER; k++) {
+    if (!(par->flows >> k & 1)) continue;
+    flow[k].resize(nmax + BLOCK);
+    std::fill_n(flow[k].begin() + atom->nlocal + atom->nghost, BLOCK, FlowRow());
+  }
+}
+
+/* ---------------------------------------------------------------------- */
+
+void Engine::prepare_rows()
+{
+  grow_atoms();
+  grow_flows();
+  set_rows();
+  set_weights();
+}
+
 /* ----------------------------------------------------------------------
    Set the rows of atoms between the passes; with temp energy, the rows have a copy of the internal energies.
 ------------------------------------------------------------------------- */
@@ -351,11 +372,7 @@ void Engine::accumulate_density(NeighList *list, double **vest, double **omegaes
     if (has_spin()) spin[i] = Spin();
   }
 
-  for (int k = 0; k < Flows::NUMBER; k++) {
-    if (!(par->flows >> k & 1)) continue;
-    flow[k].resize(nmax + BLOCK);
-    std::fill_n(flow[k].begin() + nall, BLOCK, FlowRow());
-  }
+  grow_flows();
   if (par->by_rate) {
     viscosity.resize(nmax + BLOCK);
     std::fill_n(viscosity.begin() + nall, BLOCK, 0.0);

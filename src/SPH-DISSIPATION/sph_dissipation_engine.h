@@ -275,6 +275,9 @@ namespace SPHDissipation {
     // Choose the loops for these parameters, which the loops read until the next call
     void setup(const Parameters &);
 
+    // Make room for owned and ghost atoms, and set rows(), for stages of the host while the loops run on a device
+    void prepare_rows();
+
     // Pass 1: set particle[] from atom->x and vest (nullptr: zero), spin[] from omegaest (micropolar; nullptr: zero).  Sum
     // density[] of owned atoms (with the particle itself) and the contributions to ghost atoms.  slopes_read: stages, or
     // loops other than the loop of the forces, read F
@@ -430,6 +433,7 @@ namespace SPHDissipation {
     double slope_of(int i, int j) const;
     void grow_atoms();
     void set_rows();
+    void grow_flows();
     void set_weights();
     void grow_pairs(NeighList *, bool leaves_slopes);
     LoopData part(int thread) const;    // the rows of the neighbor list of this thread

@@ -139,9 +139,12 @@ struct QuinticSpline {
   }
 };
 
-// Call function(KernelClass()) for the kernel chosen at run time, on the host
+// Call function(KernelClass()) for the kernel chosen at run time; on a device, function must be of the device
 
-template <class Function> SPH_HOST_INLINE auto with_kernel(Kernel kernel, Function &&function)
+#ifdef __CUDACC__
+#pragma nv_exec_check_disable
+#endif
+template <class Function> SPH_INLINE auto with_kernel(Kernel kernel, Function &&function)
 {
   switch (kernel) {
     case Kernel::WENDLAND_C4:

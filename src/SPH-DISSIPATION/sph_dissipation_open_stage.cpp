@@ -25,8 +25,6 @@
 using namespace LAMMPS_NS;
 using namespace SPHDissipation;
 
-static constexpr double NEITHER = -1.0;
-
 /* ---------------------------------------------------------------------- */
 
 void OpenImpact::add(const Particle &particle, const ForceSum &sum, double heat)
@@ -89,14 +87,16 @@ double OpenStage::state_energy(int i) const
 void OpenStage::run()
 {
   set_states();
-  set_zones();
+  const OpenGroups now = groups();
+  zone_of.resize(atom->nlocal + atom->nghost);
+  for (int i = 0; i < atom->nlocal; i++) zone_of[i] = now.place_of(atom->mask[i]);
   Particle *const particle = engine.particle;
   exchange.forward({field(particle, &particle->vol, 2), {zone_of.data(), 1, 1}});
   Flows::visit(engine.constants().flows, [&](auto, int k) {
     FlowRow *const row = engine.flow[k].data();
     exchange.forward({field(row, &row->vol, 3)});
   });
-  update_ghosts();
+  update_ghosts(now);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -135,37 +135,27 @@ void OpenStage::set_temperature(int i, double temperature)
 
 /* ---------------------------------------------------------------------- */
 
-void OpenStage::set_zones()
+OpenGroups OpenStage::groups() const
 {
-  zone_of.resize(atom->nlocal + atom->nghost);
-  int fluid_bits = 0;
-  for (const auto &zone : zones) fluid_bits |= zone->fluid_bit();
-  for (int i = 0; i < atom->nlocal; i++) {
-    const int mask = atom->mask[i];
-    zone_of[i] = (mask & fluid_bits) ? 0.0 : NEITHER;
-    if (!(mask & zone_bits)) continue;
-    for (std::size_t k = 0; k < zones.size(); k++)
-      if (mask & zones[k]->zone_bit()) zone_of[i] = static_cast<double>(k + 1);
+  OpenGroups all;
+  for (const auto &zone : zones) {
+    all.fluid[all.n] = zone->fluid_bit();
+    all.zone[all.n++] = zone->zone_bit();
   }
+  return all;
 }
 
 /* ----------------------------------------------------------------------
    Set density and group of ghost particles to the values of their owners.
 ------------------------------------------------------------------------- */
 
-void OpenStage::update_ghosts()
+void OpenStage::update_ghosts(const OpenGroups &now)
 {
   for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
-    if (zone_of[i] == NEITHER) continue;
-    int &mask = atom->mask[i];
-    if (zone_of[i] > 0.0) {
-      const OpenZone *const zone = zones[static_cast<int>(zone_of[i]) - 1];
-      mask = (mask & ~zone->fluid_bit()) | zone->zone_bit();
-      atom->vfrac[i] = engine.particle[i].vol;
-      atom->rho[i] = atom->rmass[i] / atom->vfrac[i];
-    } else
-      for (const auto &zone : zones)
-        if (mask & zone->zone_bit()) mask = (mask & ~zone->zone_bit()) | zone->fluid_bit();
+    atom->mask[i] = now.mask_at(zone_of[i], atom->mask[i]);
+    if (!(zone_of[i] > 0.0)) continue;
+    atom->vfrac[i] = engine.particle[i].vol;
+    atom->rho[i] = atom->rmass[i] / atom->vfrac[i];
   }
 }
 

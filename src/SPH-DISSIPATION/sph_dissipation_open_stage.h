@@ -34,6 +34,34 @@ namespace SPHDissipation {
     void add(const Spin &, const double *couple);
   };
 
+  // Groups of the zones and of their fluids, on host and device.  The place of a particle is 0 in a fluid, k in zone k - 1, -1
+  // elsewhere.  Groups of owned particles change between two neighbor lists; ghosts get place and group of their owner.
+
+  struct OpenGroups {
+    static constexpr int MOST = 32;    // groups in LAMMPS
+    int n = 0, fluid[MOST], zone[MOST];
+
+    SPH_FUNCTION double place_of(int mask) const
+    {
+      double place = -1.0;
+      for (int k = 0; k < n; k++)
+        if ((mask & fluid[k]) && place < 0.0) place = 0.0;
+      for (int k = 0; k < n; k++)
+        if (mask & zone[k]) place = k + 1.0;
+      return place;
+    }
+    SPH_FUNCTION int mask_at(double place, int mask) const
+    {
+      if (place > 0.0) {
+        const int k = static_cast<int>(place) - 1;
+        return (mask & ~fluid[k]) | zone[k];
+      }
+      for (int k = 0; k < n && place == 0.0; k++)
+        if (mask & zone[k]) mask = (mask & ~zone[k]) | fluid[k];
+      return mask;
+    }
+  };
+
   // Sets density and pressure in the pair forces of particles of buffer zones, and sums the impact of the zones on the fluid,
   // over the pairs of a particle of a zone and a particle of the fluid.
 
@@ -58,6 +86,11 @@ namespace SPHDissipation {
       return engine.constants().states ? engine.state_pressure[i] : 0.0;
     }
 
+    // With the device, the two parts of run(): set the states of owned particles of zones; the groups for the ghosts
+    void set_states();
+    OpenGroups groups() const;
+    const std::vector<OpenZone *> &all() const { return zones; }
+
     void run();                       // after the pressures, before BoundaryStage::run()
     void sum_impacts(NeighList *);    // after pass 2
     double memory_usage() const override
@@ -69,11 +102,7 @@ namespace SPHDissipation {
     std::vector<OpenZone *> zones;
     int zone_bits = 0;
 
-    void set_states();
-
-    // Zone of each owned and ghost particle: 0 fluid, k zone k - 1, -1 neither.  Groups change between two neighbor lists:
-    // then only the masks of owned particles are up to date.
-    std::vector<double> zone_of;
+    std::vector<double> zone_of;    // places of owned and ghost particles, see OpenGroups
 
     std::vector<std::vector<int>> rows;    // rows of the neighbor list near the plane of each zone
 
@@ -84,8 +113,7 @@ namespace SPHDissipation {
     ChannelSums side;
     std::vector<double> divergence, flow;
 
-    void set_zones();
-    void update_ghosts();
+    void update_ghosts(const OpenGroups &);
     void find_rows(NeighList *);
     OpenImpact impact(NeighList *, std::size_t);
   };

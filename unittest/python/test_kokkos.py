@@ -13,8 +13,10 @@ import numpy as np
 import pytest
 
 from helpers import DEVICE_LOOPS, FIELDS, KOKKOS, SUPPORT, SWITCHES, VECTORS, disordered, dump, fluid, header, lattice, relative
+import open_boundaries
 import test_continuity as continuity
 import test_micropolar as micropolar
+import test_open_ledger as ledger
 import test_relax as relax
 
 pytestmark = pytest.mark.skipif(not KOKKOS, reason="no LAMMPS with the package KOKKOS, see ./sphd --help")
@@ -661,6 +663,53 @@ def test_drops_of_two_fluids_in_3d(lammps, style):
     assert np.abs(kokkos["d_vol_rate"].sum()) < 1e-13 * np.abs(kokkos["d_vol_rate"]).max()
     assert np.all(kokkos["d_vol_rate"][kokkos["id"] < 10] == 0.0)
     assert not any("on the host" in line for line in result.warnings), result.warnings
+
+
+# ---------------------------------------------------------------------------------------------
+# open ends
+
+PRESSED = ("velocity {U} average 40", "density 1.0")
+ENDS = [  # box, style, its options and coefficients, inlet and outlet
+    ("free", "sph/bulk", "bulk density", "", PRESSED), ("walls", "sph/bulk", "bulk volume", "", ("velocity v_U 0 0", "pressure v_P")),
+    ("straight", "sph/bulk", "volume mass eos tait", "", ("pressure 0.01", "density 1.0 condition characteristic")),
+    ("triclinic", "sph/micropolar", "bulk volume volume mass", "", ("velocity {U} spin 0 0 0.3", "density 1.0 condition fixed order 1")),
+    ("straight", "sph/bulk", "eos ideal", "cv 2.0 conductivity 0.3", ("velocity {U} temperature 0.6", "pressure 0.4")),
+    ("straight", "sph/bulk", "", "cv 2.0 conductivity 0.3", ("velocity {U} temperature 0.6", "density 1.0")),
+    ("straight", "sph/bulk", "", "relax 0.3 2.0", PRESSED), ("walls", "sph/bulk", "density continuity", "", PRESSED),
+    ("free", "sph/bulk", "shear mg/fr2", "power 0.6 0.01 1.0", PRESSED), ("free", "sph/bulk", "limit yes", "", PRESSED)]
+
+
+@pytest.mark.parametrize("box, style, options, coeff, ends, ranks, newton", [
+    pytest.param(*case, ranks, newton, marks=[] if k % 3 == n else pytest.mark.long)
+    for k, case in enumerate(ENDS) for n, (ranks, newton) in enumerate([(1, "on"), (2, "off"), (4, "on")])])
+def test_open_ends(lammps, box, style, options, coeff, ends, ranks, newton):
+    """Particles that enter and leave, with all that the zones carry and do; the device computes the forces."""
+    channel = open_boundaries.Channel(box=box, zone=9.0, direction=(2, 1) if box == "triclinic" else (1, 0))
+    words = ledger.keywords(style)
+    words["coeff"] += f" {coeff}"
+    if "continuity" in options:
+        words["integrate"] = ""
+    before = "variable U equal 0.1+0.02*sin(0.1*time)\nvariable P atom 0.002*y\n"
+    spin = "omegaz" if spinning(style) else ""
+    text = channel.text(lammps, ends[0].format(U=channel.vector(0.1)), ends[1], velocity=ledger.agitated(channel, 0.02), newton=newton,
+                        options=options, spin=0.2, before=before, esph=1.0 if "cv" in coeff else 0.0, **words)
+    if "relax" in coeff:
+        text = text.replace(f"atom_style {style}", f"atom_style {style} relax 1")
+        relax.write(channel.particles(ledger.agitated(channel, 0.02)), lammps.path("box.data"), [-1.0])
+    text += ledger.output(channel, style, 20) + open_boundaries.dump("dump.txt", 200, spin) + "run 200\n"
+    results = []
+    for switches in ([], SWITCHES):
+        result = lammps(text, ranks=ranks, switches=switches)
+        results.append((lammps.frame("dump.txt"), result.thermo()[-1], result))
+    (cpu, thermo, _), (kokkos, thermo_kokkos, result) = results
+    assert not any("on the host" in line for line in result.warnings), result.warnings
+    assert thermo["f_in[1]"][-1] > 5 and np.array_equal(cpu["id"], kokkos["id"])
+    for name in ("x", "y", "vx", "vy", "c_RHO", *spin.split()):
+        assert np.abs(cpu[name] - kokkos[name]).max() < 1e-9 * max(np.abs(cpu[name]).max(), 1.0), name
+    images = [f"f_{end}[{k}]" for end in ("in", "out") for k in (24, 25, 26)] if box in ("straight", "triclinic") else []
+    for name, column in thermo.items():
+        if name not in images:    # the torque on a particle across a periodic border depends on the image that has the force
+            assert np.abs(column - thermo_kokkos[name]).max() < 1e-8 * max(np.abs(column).max(), 1.0), name
 
 
 # ---------------------------------------------------------------------------------------------

@@ -1,0 +1,199 @@
+/* ----------------------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+/* ----------------------------------------------------------------------
+   Contributing authors: the SPH-DISSIPATION authors
+------------------------------------------------------------------------- */
+
+#include "fix_sph_open_kokkos.h"
+
+#include "atom_kokkos.h"
+#include "atom_vec_sph_bulk_kokkos.h"
+#include "kokkos.h"
+#include "sph_dissipation_fields.h"
+#include "sph_dissipation_fluid.h"
+#include "sph_dissipation_masks.h"
+
+#include <type_traits>
+#include <utility>
+
+using namespace LAMMPS_NS;
+using namespace SPHDissipation;
+
+static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
+static constexpr uint64_t IDENTITY = TAG_MASK | TYPE_MASK | MASK_MASK | IMAGE_MASK | RMASS_MASK;
+static constexpr uint64_t FIELDS = X_MASK | V_MASK | F_MASK | OMEGA_MASK | TORQUE_MASK | VEST_MASK |
+    OMEGAEST_MASK | INERTIA_MASK | SPH_RHO_MASK | DRHO_MASK | DESPH_MASK | ENERGY | OFFSET_MASK |
+    STATES_MASK;    // of add_fields()
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType>
+FixSPHOpenKokkos<DeviceType>::FixSPHOpenKokkos(LAMMPS *lmp, int narg, char **arg) :
+    FixSPHOpen(lmp, narg, arg)
+{
+  kokkosable = 1;
+  atomKK = (AtomKokkos *) atom;
+  execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
+  datamask_read = EMPTY_MASK;    // each function syncs the fields that it reads and modifies
+  datamask_modify = EMPTY_MASK;
+}
+
+/* ----------------------------------------------------------------------
+   Run a task of the CPU style with all particles.  auto_sync: functions of LAMMPS that create particles sync them, as for a
+   fix without suffix.
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class Task>
+void FixSPHOpenKokkos<DeviceType>::with_all(const Task &task)
+{
+  atomKK->sync(Host, ALL_MASK);
+  const int before = std::exchange(lmp->kokkos->auto_sync, 1);
+  task();
+  lmp->kokkos->auto_sync = before;
+  atomKK->modified(Host, ALL_MASK);
+}
+
+/* ----------------------------------------------------------------------
+   Run a task of the CPU style with the fields of the particles of the zone and near it; groups are copied for all particles.
+------------------------------------------------------------------------- */
+
+template <class DeviceType>
+template <class Task>
+void FixSPHOpenKokkos<DeviceType>::with_some(const Task &task)
+{
+  if (!std::is_same_v<DeviceType, LMPDeviceType> || !fluid->computes_on_device())
+    return with_all(task);
+  atomKK->sync(Host, IDENTITY);
+  atomKK->sync(execution_space, FIELDS);
+  some.set(members);
+  add_fields();
+  some.get();
+  task();
+  some.put();
+  atomKK->modified(Host, MASK_MASK);
+}
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::add_fields()
+{
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  const Fields &host = *Fields::of(atom);
+  const auto numbers = [this](const auto &device, double *one) {
+    some.add(device.template view<DeviceType>(), one, 1);
+  };
+  const auto vectors = [this](const auto &device, double **three) {
+    some.add(device.template view<DeviceType>(), three[0], 3);
+  };
+  if (atom->nmax == 0) return;
+  vectors(atomKK->k_x, atom->x);
+  vectors(atomKK->k_v, atom->v);
+  vectors(atomKK->k_f, atom->f);
+  vectors(avec.k_vest, atom->vest);
+  numbers(avec.k_rho, atom->rho);
+  numbers(avec.k_drho, atom->drho);
+  numbers(avec.k_esph, atom->esph);
+  numbers(avec.k_desph, atom->desph);
+  numbers(avec.k_desph_before, host.desph_before);
+  numbers(avec.k_vol_rate, host.vol_rate);
+  numbers(avec.k_vol_rate_before, host.vol_rate_before);
+  for (const int slot : avec.slots) numbers(avec.k_state[slot], host.state[slot]);
+  if (!host.has_spins) return;
+  vectors(atomKK->k_omega, atom->omega);
+  vectors(atomKK->k_torque, atom->torque);
+  vectors(avec.k_omegaest, host.omegaest);
+  numbers(avec.k_inertia, host.inertia);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup_pre_exchange()
+{
+  with_all([this]() {
+    FixSPHOpen::setup_pre_exchange();
+  });
+}
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup_pre_neighbor()
+{
+  pre_neighbor();
+}
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::pre_neighbor()
+{
+  atomKK->sync(Host, X_MASK | MASK_MASK);
+  FixSPHOpen::pre_neighbor();
+}
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup(int vflag)
+{
+  atomKK->sync(Host, ENERGY);
+  FixSPHOpen::setup(vflag);
+  atomKK->modified(Host, ENERGY);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::initial_integrate(int vflag)
+{
+  with_some([this, vflag]() {
+    FixSPHOpen::initial_integrate(vflag);
+  });
+}
+
+/* ----------------------------------------------------------------------
+   Variables may read any particles.
+------------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::post_integrate()
+{
+  const auto task = [this]() {
+    FixSPHOpen::post_integrate();
+  };
+  if (zone_varies() || has_lost_members())
+    with_all(task);
+  else
+    with_some(task);
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::pre_exchange()
+{
+  with_all([this]() {
+    FixSPHOpen::pre_exchange();
+  });
+}
+
+template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::final_integrate()
+{
+  with_some([this]() {
+    FixSPHOpen::final_integrate();
+  });
+}
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> double FixSPHOpenKokkos<DeviceType>::memory_usage()
+{
+  return FixSPHOpen::memory_usage() + some.memory_usage();
+}
+
+/* ---------------------------------------------------------------------- */
+
+namespace LAMMPS_NS {
+template class FixSPHOpenKokkos<LMPDeviceType>;
+#ifdef LMP_KOKKOS_GPU
+template class FixSPHOpenKokkos<LMPHostType>;
+#endif
+}    // namespace LAMMPS_NS

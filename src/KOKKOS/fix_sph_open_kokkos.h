@@ -1,0 +1,57 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifdef FIX_CLASS
+// clang-format off
+FixStyle(sph/open/kk,FixSPHOpenKokkos<LMPDeviceType>);
+FixStyle(sph/open/kk/device,FixSPHOpenKokkos<LMPDeviceType>);
+FixStyle(sph/open/kk/host,FixSPHOpenKokkos<LMPHostType>);
+// clang-format on
+#else
+
+#ifndef LMP_FIX_SPH_OPEN_KOKKOS_H
+#define LMP_FIX_SPH_OPEN_KOKKOS_H
+
+#include "fix_sph_open.h"
+#include "sph_dissipation_open_kokkos.h"
+
+namespace LAMMPS_NS {
+
+// fix sph/open with copies of the particles near the zone alone in most steps; its work is done on the host, since these
+// particles are few
+
+template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
+ public:
+  FixSPHOpenKokkos(class LAMMPS *, int, char **);
+  void setup_pre_exchange() override;
+  void setup_pre_neighbor() override;
+  void setup(int) override;
+  void initial_integrate(int) override;
+  void post_integrate() override;
+  void pre_exchange() override;
+  void pre_neighbor() override;
+  void final_integrate() override;
+  double memory_usage() override;
+
+ private:
+  SPHDissipation::SomeParticlesKokkos<DeviceType> some;    // of the zone and near it
+
+  template <class Task> void with_all(const Task &);
+  template <class Task> void with_some(const Task &);
+  void add_fields();
+};
+
+}    // namespace LAMMPS_NS
+
+#endif
+#endif

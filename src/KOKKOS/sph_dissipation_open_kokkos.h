@@ -1,0 +1,160 @@
+/* -*- c++ -*- ----------------------------------------------------------
+   LAMMPS - Large-scale Atomic/Molecular Massively Parallel Simulator
+   https://www.lammps.org/, Sandia National Laboratories
+   LAMMPS development team: developers@lammps.org
+
+   Copyright (2003) Sandia Corporation.  Under the terms of Contract
+   DE-AC04-94AL85000 with Sandia Corporation, the U.S. Government retains
+   certain rights in this software.  This software is distributed under
+   the GNU General Public License.
+
+   See the README file in the top-level LAMMPS directory.
+------------------------------------------------------------------------- */
+
+#ifndef LMP_SPH_DISSIPATION_OPEN_KOKKOS_H
+#define LMP_SPH_DISSIPATION_OPEN_KOKKOS_H
+
+// Open ends on the device, as class OpenStage on the host
+
+#include "sph_dissipation_columns_kokkos.h"
+#include "sph_dissipation_loops_kokkos.h"
+
+#include <vector>
+
+namespace LAMMPS_NS {
+namespace SPHDissipation {
+
+  // Some particles, and fields of theirs that are on the device and on the host: copies the values of these particles alone
+
+  template <class DeviceType> class SomeParticlesKokkos {
+   public:
+    Kokkos::View<int *, DeviceType> list;
+
+    // Set the particles; then add their fields, get() them from the device, and put() them back
+    void set(const std::vector<int> &particles)
+    {
+      on_host = particles;
+      renew(list, "sph:some", static_cast<int>(particles.size()));
+      Kokkos::deep_copy(list,
+                        Kokkos::View<const int *, LMPHostType, Kokkos::MemoryUnmanaged>(
+                            particles.data(), particles.size()));
+      there = here = ColumnsKokkos();
+    }
+    template <class Array> void add(const Array &device, double *host, std::size_t width)
+    {
+      there.add(device);
+      here.add(Field{host, width, static_cast<int>(width)});
+    }
+    void get()
+    {
+      grow();
+      pack_columns<DeviceType>(there, {packed.data(), there.n}, size(), list);
+      Kokkos::deep_copy(copy, packed);
+      for (int k = 0; k < size(); k++) here.unpack(on_host[k], &copy(k * here.n));
+    }
+    void put()
+    {
+      grow();
+      for (int k = 0; k < size(); k++) here.pack(on_host[k], &copy(k * here.n));
+      Kokkos::deep_copy(packed, copy);
+      unpack_columns<DeviceType>(there, {packed.data(), there.n}, size(), list);
+    }
+    int size() const { return static_cast<int>(on_host.size()); }
+    double memory_usage() const { return bytes_of(list, packed, copy) + bytes(on_host); }
+
+   private:
+    std::vector<int> on_host;
+    ColumnsKokkos there, here;
+    Kokkos::View<double *, DeviceType> packed;
+    decltype(Kokkos::create_mirror_view(packed)) copy;
+
+    void grow()
+    {
+      const int n = size() * there.n;
+      if (static_cast<int>(packed.extent(0)) == n) return;
+      renew(packed, "sph:some_packed", n);
+      copy = Kokkos::create_mirror_view(packed);
+    }
+  };
+
+  struct SlopeKokkos {
+    double q;
+    template <class K> KOKKOS_INLINE_FUNCTION double operator()(K) const { return K::slope(q); }
+  };
+
+  // The impact of a zone on the fluid, as OpenStage::impact(): each particle of the fluid sums up its own pairs.  These are
+  // few, so kernel and bulk term are chosen for each pair.  v = force and torque, evdwl = work and heat
+
+  template <class DeviceType, class Form> struct ZoneImpactKokkos {
+    LoopDataKokkos<DeviceType> data;
+    Kokkos::View<int *, DeviceType> list;    // of owned particles near zones
+    const double *place;                     // see OpenGroups
+    double zone;                             // place of the zone
+    bool conducts;
+
+    KOKKOS_INLINE_FUNCTION void operator()(int k, EV_FLOAT &total) const
+    {
+      const int i = list(k);
+      if (place[i] != 0.0) return;
+      const Particle pi = data.particle[i];
+      const double weight_i = data.weight[i * data.each];
+      double force[3] = {0.0, 0.0, 0.0}, couple[3] = {0.0, 0.0, 0.0}, power = 0.0;
+      for_neighbors(data, i, [&](int j, const double *r, double rsq) {
+        if (place[j] != zone) return;
+        const Particle &pj = data.particle[j];
+        const double slope = data.par.slope_norm *
+            with_kernel(data.par.kernel, SlopeKokkos{Kokkos::sqrt(rsq) / data.par.support});
+        const double weights = weight_i * data.weight[j * data.each];
+        PairState pair = {};
+        for (int d = 0; d < 3; d++) {
+          pair.r[d] = r[d];
+          pair.u[d] = pi.u[d] - pj.u[d];
+        }
+        pair.coeff = data.pair[data.type[i] * data.par.ntypes_1 + data.type[j]].a;
+        pair.approach = dot(pair.r, pair.u);
+        pair.vv = volumes_slope(rsq, pi.vol, pj.vol, slope);
+        pair.central = pressing_term(pi.g, pj.g, slope) * weights;
+        if constexpr (Form::CENTRAL)
+          pair.by_metric = pair.vv / (metric_of<Form::BY_DISTANCE>(rsq) + TINY);
+        if constexpr (Form::BY_RATE) {
+          pair.mu[0] = data.viscosity[i];
+          pair.mu[1] = data.viscosity[j];
+        }
+        Form::add_central(pair);
+        if (data.par.bulk == Bulk::VOLUME) {
+          pair.central += volume_term(data.zeta_term[i], data.zeta_term[j], pair.vv);
+          power -= data.zeta_term[i] * pair.vv * pair.approach;
+        }
+        for (int d = 0; d < 3; d++) pair.f[d] = pair.central * r[d];
+        if constexpr (Form::SPINS) {
+          const double *const w_i = data.spin[i].w, *const w_j = data.spin[j].w;
+          slip_velocity(w_i, w_j, pair.r, pair.u);
+          for (int d = 0; d < 3; d++) pair.s[d] = w_i[d] - w_j[d];
+        }
+        Form::add_vector(pair);
+        power -= weights * pi.g * slope * pair.approach;
+        for (int c = 0; c < NCHANNEL; c++) power += pair.heat[c];
+        for (int d = 0; d < 3; d++) force[d] += pair.f[d];
+        if constexpr (Form::SPINS)
+          for (int d = 0; d < 3; d++) couple[d] += pair.t[d] - pair.spin[d];
+        if (!conducts) return;
+        const FlowRow &own = data.flow[HEAT_FLOW][i], &other = data.flow[HEAT_FLOW][j];
+        power += flow_of_pair(mean_coefficient(own.coefficient, other.coefficient),
+                              own.vol * other.vol * slope, own.value, other.value);
+      });
+      double moment[3];
+      cross_product(pi.x, force, moment);
+      for (int d = 0; d < 3; d++) {
+        power += force[d] * pi.u[d];
+        if constexpr (Form::SPINS) power += couple[d] * data.spin[i].w[d];
+        total.v[d] += force[d];
+        total.v[3 + d] += moment[d] + couple[d];
+      }
+      total.evdwl += power;
+    }
+  };
+
+}    // namespace SPHDissipation
+}    // namespace LAMMPS_NS
+
+#endif
