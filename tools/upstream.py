@@ -48,8 +48,8 @@ PATCHES = (
     ("fluid", ("atom sph/bulk", "atom sph/micropolar", "pair sph/bulk", "pair sph/micropolar", "fix sph/bulk", "fix sph/micropolar",
                "fix sph/torque", "compute sph/angmom", "compute sph/dissipation", "compute sph/energy")),
     ("walls", ("fix sph/wall", "fix sph/dt", "compute sph/gauge")),
-    ("noise", ("compute sph/temp", "KOKKOS")),
-    ("open", ("fix sph/open", "fix sph/refine", "compute sph/grid", "compute sph/spectrum")),
+    ("noise", ("compute sph/temp",)),
+    ("open", ("fix sph/open", "fix sph/refine", "compute sph/grid", "compute sph/spectrum", "KOKKOS")),
 )
 NUMBER = {name: number for number, (name, _) in enumerate(PATCHES, 1)}
 LAST = len(PATCHES)
@@ -112,7 +112,7 @@ PLACED = {
     "Howto_sph_theory_time": "fluid",
     "Howto_sph_theory_walls": "fluid",
     "Howto_sph_theory_noise": "noise",
-    "Howto_sph_kokkos": "noise",
+    "Howto_sph_kokkos": "open",
     "Howto_sph_validation": "open",
     "Developer_sph_dissipation": "open",
 }

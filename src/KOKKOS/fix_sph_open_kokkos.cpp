@@ -23,6 +23,7 @@
 #include "sph_dissipation_fields.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_masks.h"
+#include "sph_dissipation_open_kokkos.h"
 
 #include <type_traits>
 #include <utility>
@@ -40,7 +41,7 @@ static constexpr uint64_t FIELDS = X_MASK | V_MASK | F_MASK | OMEGA_MASK | TORQU
 
 template <class DeviceType>
 FixSPHOpenKokkos<DeviceType>::FixSPHOpenKokkos(LAMMPS *lmp, int narg, char **arg) :
-    FixSPHOpen(lmp, narg, arg)
+    FixSPHOpen(lmp, narg, arg), some(new SomeParticlesKokkos<DeviceType>())
 {
   kokkosable = 1;
   atomKK = (AtomKokkos *) atom;
@@ -48,6 +49,10 @@ FixSPHOpenKokkos<DeviceType>::FixSPHOpenKokkos(LAMMPS *lmp, int narg, char **arg
   datamask_read = EMPTY_MASK;    // each function syncs the fields that it reads and modifies
   datamask_modify = EMPTY_MASK;
 }
+
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> FixSPHOpenKokkos<DeviceType>::~FixSPHOpenKokkos() = default;
 
 /* ----------------------------------------------------------------------
    Run a task of the CPU style with all particles.  auto_sync: functions of LAMMPS that create particles sync them, as for a
@@ -77,11 +82,11 @@ void FixSPHOpenKokkos<DeviceType>::with_some(const Task &task)
     return with_all(task);
   atomKK->sync(Host, IDENTITY);
   atomKK->sync(execution_space, FIELDS);
-  some.set(members);
+  some->set(members);
   add_fields();
-  some.get();
+  some->get();
   task();
-  some.put();
+  some->put();
   atomKK->modified(Host, MASK_MASK);
 }
 
@@ -90,10 +95,10 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::add_fields()
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   const Fields &host = *Fields::of(atom);
   const auto numbers = [this](const auto &device, double *one) {
-    some.add(device.template view<DeviceType>(), one, 1);
+    some->add(device.template view<DeviceType>(), one, 1);
   };
   const auto vectors = [this](const auto &device, double **three) {
-    some.add(device.template view<DeviceType>(), three[0], 3);
+    some->add(device.template view<DeviceType>(), three[0], 3);
   };
   if (atom->nmax == 0) return;
   vectors(atomKK->k_x, atom->x);
@@ -186,7 +191,7 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::final_integrate()
 
 template <class DeviceType> double FixSPHOpenKokkos<DeviceType>::memory_usage()
 {
-  return FixSPHOpen::memory_usage() + some.memory_usage();
+  return FixSPHOpen::memory_usage() + some->memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */

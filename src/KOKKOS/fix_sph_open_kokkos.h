@@ -23,9 +23,13 @@ FixStyle(sph/open/kk/host,FixSPHOpenKokkos<LMPHostType>);
 #define LMP_FIX_SPH_OPEN_KOKKOS_H
 
 #include "fix_sph_open.h"
-#include "sph_dissipation_open_kokkos.h"
+
+#include <memory>
 
 namespace LAMMPS_NS {
+namespace SPHDissipation {
+  template <class DeviceType> class SomeParticlesKokkos;
+}
 
 // fix sph/open with copies of the particles near the zone alone in most steps; its work is done on the host, since these
 // particles are few
@@ -33,6 +37,7 @@ namespace LAMMPS_NS {
 template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
  public:
   FixSPHOpenKokkos(class LAMMPS *, int, char **);
+  ~FixSPHOpenKokkos() override;
   void setup_pre_exchange() override;
   void setup_pre_neighbor() override;
   void setup(int) override;
@@ -44,7 +49,8 @@ template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
   double memory_usage() override;
 
  private:
-  SPHDissipation::SomeParticlesKokkos<DeviceType> some;    // of the zone and near it
+  const std::unique_ptr<SPHDissipation::SomeParticlesKokkos<DeviceType>>
+      some;    // of the zone and near it
 
   template <class Task> void with_all(const Task &);
   template <class Task> void with_some(const Task &);
