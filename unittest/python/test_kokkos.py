@@ -1134,6 +1134,23 @@ def copies(lammps, counter, monkeypatch, text, least):
 
 
 @pytest.mark.skipif(not DEVICE_LOOPS, reason="nothing is on a device")
+@pytest.mark.parametrize("inlet, varies", [("velocity 0.1 0 0", False), ("velocity v_U 0 0", True)])
+def test_copies_of_open_ends(lammps, counter, monkeypatch, inlet, varies):
+    """Between two neighbor lists the host gets the groups of all particles, and no other field, unless variables prescribe values."""
+    channel = open_boundaries.Channel()
+    text = channel.text(lammps, inlet, "density 1.0", before="variable U equal 0.1\n", **ledger.keywords("sph/bulk"))
+    text += "neigh_modify delay 100 every 100 check no\nrun 10\n"
+    steps, _, result = copies(lammps, counter, monkeypatch, text, least=8 * len(channel.place))
+    assert len(steps) == 12 and not any("copies all" in line for line in result.warnings)
+    if not any(kind == "array" for kind, _ in steps[1]):
+        pytest.skip("host and device share their memory")
+    copied = {one for step in steps[2:-1] for one in step}
+    assert any(kind == "array" for kind, _ in copied) == varies
+    if not varies:
+        assert copied == {("host", MASK), ("device", MASK)}
+
+
+@pytest.mark.skipif(not DEVICE_LOOPS, reason="nothing is on a device")
 @pytest.mark.parametrize("fix, options, words", [
     ("sph/dt 10", "", ""), ("sph/refine 10 volume 1.0 wait 0.0", "volume mass", ""), ("sph/torque 0.1 0.2 0.3", "", ""),
     ("sph/torque 0.0 0.0 v_T", "", "variable T equal 0.1\n"), ("ave/time 10 1 10 c_thermo_temp", "", ""), ("momentum 1 linear 1 1 1", "", "suffix off\n")])
