@@ -71,12 +71,13 @@ void FixSPHOpenKokkos<DeviceType>::with_all(const Task &task)
 }
 
 /* ----------------------------------------------------------------------
-   Run a task of the CPU style with the fields of the particles of the zone and near it; groups are copied for all particles.
+   Run a task of the CPU style with the fields of the particles of the zone and near it.  The host gets the groups of all
+   particles; regroups: the task changes groups, which the device gets back.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
 template <class Task>
-void FixSPHOpenKokkos<DeviceType>::with_some(const Task &task)
+void FixSPHOpenKokkos<DeviceType>::with_some(bool regroups, const Task &task)
 {
   if (!std::is_same_v<DeviceType, LMPDeviceType> || !fluid->computes_on_device())
     return with_all(task);
@@ -87,7 +88,7 @@ void FixSPHOpenKokkos<DeviceType>::with_some(const Task &task)
   some->get();
   task();
   some->put();
-  atomKK->modified(Host, MASK_MASK);
+  if (regroups) atomKK->modified(Host, MASK_MASK);
 }
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::add_fields()
@@ -151,7 +152,7 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup(int vflag)
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::initial_integrate(int vflag)
 {
-  with_some([this, vflag]() {
+  with_some(false, [this, vflag]() {
     FixSPHOpen::initial_integrate(vflag);
   });
 }
@@ -168,7 +169,7 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::post_integrate()
   if (zone_varies() || has_lost_members())
     with_all(task);
   else
-    with_some(task);
+    with_some(true, task);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -182,7 +183,7 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::pre_exchange()
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::final_integrate()
 {
-  with_some([this]() {
+  with_some(false, [this]() {
     FixSPHOpen::final_integrate();
   });
 }

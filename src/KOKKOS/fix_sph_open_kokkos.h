@@ -53,7 +53,7 @@ template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
       some;    // of the zone and near it
 
   template <class Task> void with_all(const Task &);
-  template <class Task> void with_some(const Task &);
+  template <class Task> void with_some(bool regroups, const Task &);
   void add_fields();
 };
 

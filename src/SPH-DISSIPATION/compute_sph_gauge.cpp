@@ -29,6 +29,7 @@
 #include "sph_dissipation_model.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -119,9 +120,10 @@ void ComputeSPHGauge::compute_vector()
       const Gauge &gauge = gauges[k];
       const bool level = gauge.axis >= 0;
       if (level && wall) continue;
-      double r[3];
-      MathExtra::sub3(atom->x[i], gauge.place, r);
-      if (periodic) domain->minimum_image(FLERR, r);
+      double image[3], r[3];
+      std::copy_n(atom->x[i], 3, image);
+      if (periodic) domain->closest_image(gauge.place, atom->x[i], image);
+      MathExtra::sub3(image, gauge.place, r);
       if (level) r[gauge.axis] = 0.0;
       const double rsq = MathExtra::lensq3(r);
       if (rsq >= support * support) continue;
