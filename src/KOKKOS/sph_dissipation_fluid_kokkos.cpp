@@ -553,7 +553,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_zones(StepData &)
     atomKK->modified(pair->execution_space, space.modified_mask());
     atomKK->sync(Host, ALL_MASK);
   } else if (neighbor->ago == 0)
-    atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | RMASS_MASK);
+    atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | RMASS_MASK | DESPH_BEFORE_MASK);
   engine->prepare_rows();
   const ParticleRows &there = space.rows(), &here = engine->rows();
   const OpenGroups groups = open->groups();
