@@ -254,6 +254,14 @@ ColumnsKokkos AtomVecSPHBulkKokkos::columns(Occasion occasion, ExecutionSpace sp
   return result;
 }
 
+ColumnsKokkos AtomVecSPHBulkKokkos::columns(uint64_t mask, ExecutionSpace space) const
+{
+  ColumnsKokkos result;
+  for (const auto &field : fields)
+    if (field->mask & mask) field->add_to(result, space);
+  return result;
+}
+
 /* ---------------------------------------------------------------------- */
 
 RowsKokkos AtomVecSPHBulkKokkos::rows(Occasion occasion, ExecutionSpace space,

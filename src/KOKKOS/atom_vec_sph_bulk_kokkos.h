@@ -84,6 +84,9 @@ class AtomVecSPHBulkKokkos : public AtomVecSPHBulk, public AtomVecKokkos {
   tdual_field_3 k_omegaest;
   tdual_field k_state[SPHDissipation::MOST_STATES];    // empty without room
 
+  // Return the columns of the fields of real numbers with these bits
+  SPHDissipation::ColumnsKokkos columns(uint64_t mask, ExecutionSpace) const;
+
  private:
   enum Occasion { COMM, BORDER, EXCHANGE, NOCCASION };
 

@@ -20,10 +20,9 @@
 #include "atom_kokkos.h"
 #include "atom_vec_sph_bulk_kokkos.h"
 #include "kokkos.h"
-#include "sph_dissipation_fields.h"
+#include "sph_dissipation_columns_kokkos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_masks.h"
-#include "sph_dissipation_open_kokkos.h"
 
 #include <type_traits>
 #include <utility>
@@ -35,7 +34,7 @@ static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
 static constexpr uint64_t IDENTITY = TAG_MASK | TYPE_MASK | MASK_MASK | IMAGE_MASK | RMASS_MASK;
 static constexpr uint64_t FIELDS = X_MASK | V_MASK | F_MASK | OMEGA_MASK | TORQUE_MASK | VEST_MASK |
     OMEGAEST_MASK | INERTIA_MASK | SPH_RHO_MASK | DRHO_MASK | DESPH_MASK | ENERGY | OFFSET_MASK |
-    STATES_MASK;    // of add_fields()
+    STATES_MASK;
 
 /* ---------------------------------------------------------------------- */
 
@@ -83,42 +82,14 @@ void FixSPHOpenKokkos<DeviceType>::with_some(bool regroups, const Task &task)
     return with_all(task);
   atomKK->sync(Host, IDENTITY);
   atomKK->sync(execution_space, FIELDS);
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   some->set(members);
-  add_fields();
+  some->there = avec.columns(FIELDS, Device);
+  some->here = avec.columns(FIELDS, Host);
   some->get();
   task();
   some->put();
   if (regroups) atomKK->modified(Host, MASK_MASK);
-}
-
-template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::add_fields()
-{
-  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
-  const Fields &host = *Fields::of(atom);
-  const auto numbers = [this](const auto &device, double *one) {
-    some->add(device.template view<DeviceType>(), one, 1);
-  };
-  const auto vectors = [this](const auto &device, double **three) {
-    some->add(device.template view<DeviceType>(), three[0], 3);
-  };
-  if (atom->nmax == 0) return;
-  vectors(atomKK->k_x, atom->x);
-  vectors(atomKK->k_v, atom->v);
-  vectors(atomKK->k_f, atom->f);
-  vectors(avec.k_vest, atom->vest);
-  numbers(avec.k_rho, atom->rho);
-  numbers(avec.k_drho, atom->drho);
-  numbers(avec.k_esph, atom->esph);
-  numbers(avec.k_desph, atom->desph);
-  numbers(avec.k_desph_before, host.desph_before);
-  numbers(avec.k_vol_rate, host.vol_rate);
-  numbers(avec.k_vol_rate_before, host.vol_rate_before);
-  for (const int slot : avec.slots) numbers(avec.k_state[slot], host.state[slot]);
-  if (!host.has_spins) return;
-  vectors(atomKK->k_omega, atom->omega);
-  vectors(atomKK->k_torque, atom->torque);
-  vectors(avec.k_omegaest, host.omegaest);
-  numbers(avec.k_inertia, host.inertia);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -128,11 +99,6 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup_pre_exchang
   with_all([this]() {
     FixSPHOpen::setup_pre_exchange();
   });
-}
-
-template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup_pre_neighbor()
-{
-  pre_neighbor();
 }
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::pre_neighbor()

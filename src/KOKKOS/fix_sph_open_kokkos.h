@@ -31,15 +31,13 @@ namespace SPHDissipation {
   template <class DeviceType> class SomeParticlesKokkos;
 }
 
-// fix sph/open with copies of the particles near the zone alone in most steps; its work is done on the host, since these
-// particles are few
+// fix sph/open, whose work the host does.  In most steps, the particles of the zone and near it alone are copied
 
 template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
  public:
   FixSPHOpenKokkos(class LAMMPS *, int, char **);
   ~FixSPHOpenKokkos() override;
   void setup_pre_exchange() override;
-  void setup_pre_neighbor() override;
   void setup(int) override;
   void initial_integrate(int) override;
   void post_integrate() override;
@@ -54,7 +52,6 @@ template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
 
   template <class Task> void with_all(const Task &);
   template <class Task> void with_some(bool regroups, const Task &);
-  void add_fields();
 };
 
 }    // namespace LAMMPS_NS

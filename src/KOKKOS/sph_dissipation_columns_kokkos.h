@@ -21,16 +21,19 @@
 #include "sph_dissipation_exchange.h"
 #include "sph_dissipation_states.h"
 
+#include <vector>
+
 namespace LAMMPS_NS {
 namespace SPHDissipation {
 
   // Columns of numbers: number c of particle i is base[c][i * stride[c]]
 
   struct ColumnsKokkos {
-    // Own fields that migrate: rho, esph, vest, desph_before, rho_sum, vol_rate, vol_rate_before, vol_heat, vol_support,
-    // shear_rate, shear_mu, trace, inertia, omegaest, states; or a message of a stage
-    static constexpr int OWN = 1 + 1 + 3 + 1 + 7 + 3 + 1 + 3 + MOST_STATES;
-    static constexpr int MOST = (OWN > Exchange::ROOM) ? OWN : Exchange::ROOM;
+    // All fields of a particle: x, v, f, rmass, rho, drho, vfrac, esph, desph, vest, desph_before, rho_sum, vol_rate,
+    // vol_rate_before, vol_heat, vol_support, shear_rate, shear_mu, trace, omega, torque, inertia, omegaest, states; or a
+    // message of a stage
+    static constexpr int ALL = 3 * 3 + 6 + 3 + 1 + 7 + 3 + 3 * 2 + 1 + 3 + MOST_STATES;
+    static constexpr int MOST = (ALL > Exchange::ROOM) ? ALL : Exchange::ROOM;
     int n = 0;
     double *base[MOST];
     int stride[MOST];
@@ -146,6 +149,56 @@ namespace SPHDissipation {
           if (replacement(k) >= 0) columns.copy(replacement(k), list(k));
         });
   }
+
+  // Copies fields of some particles between device and host
+
+  template <class DeviceType> class SomeParticlesKokkos {
+   public:
+    Kokkos::View<int *, DeviceType> list;
+    ColumnsKokkos there, here;    // the fields on the device, and the same fields on the host
+
+    void set(const std::vector<int> &particles)
+    {
+      if (particles == on_host) return;
+      on_host = particles;
+      renew(list, "sph:some", size());
+      Kokkos::deep_copy(
+          list,
+          Kokkos::View<const int *, LMPHostType, Kokkos::MemoryUnmanaged>(on_host.data(), size()));
+    }
+    void add(double *device, double *host, int width = 1)    // columns of an array of rows
+    {
+      there.add(Field{device, static_cast<std::size_t>(width), width});
+      here.add(Field{host, static_cast<std::size_t>(width), width});
+    }
+    void get()
+    {
+      grow();
+      pack_columns<DeviceType>(there, {packed.data(), there.n}, size(), list);
+      Kokkos::deep_copy(copy, packed);
+      for (int k = 0; k < size(); k++) here.unpack(on_host[k], &copy(k * here.n));
+    }
+    void put()
+    {
+      for (int k = 0; k < size(); k++) here.pack(on_host[k], &copy(k * here.n));
+      Kokkos::deep_copy(packed, copy);
+      unpack_columns<DeviceType>(there, {packed.data(), there.n}, size(), list);
+    }
+    int size() const { return static_cast<int>(on_host.size()); }
+    double memory_usage() const { return bytes_of(list, packed, copy) + bytes(on_host); }
+
+   private:
+    std::vector<int> on_host;
+    Kokkos::View<double *, DeviceType> packed;
+    decltype(Kokkos::create_mirror_view(packed)) copy;
+
+    void grow()
+    {
+      if (static_cast<int>(packed.extent(0)) == size() * there.n) return;
+      renew(packed, "sph:some_packed", size() * there.n);
+      copy = Kokkos::create_mirror_view(packed);
+    }
+  };
 
 }    // namespace SPHDissipation
 }    // namespace LAMMPS_NS

@@ -30,6 +30,7 @@
 #include "sph_dissipation_model.h"
 #include "sph_dissipation_noise.h"
 #include "sph_dissipation_noise_kokkos.h"
+#include "sph_dissipation_open_kokkos.h"
 #include "sph_dissipation_open_stage.h"
 #include "sph_dissipation_report.h"
 #include "sph_dissipation_shared_stages.h"
@@ -541,59 +542,69 @@ template <class DeviceType> void FluidKokkos<DeviceType>::sum_forces(StepData &s
 }
 
 /* ----------------------------------------------------------------------
-   Set the states of the zones on the host, for which the particles near the zones are copied; then the ghosts.
+   Set the states of the zones on the host, for which the particles near the zones are copied.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FluidKokkos<DeviceType>::set_zones(StepData &)
 {
-  const bool varies = std::any_of(open->all().begin(), open->all().end(), [](const OpenZone *one) {
-    return one->zone_varies();
-  });
-  if (varies) {    // variables may read any particles
+  const auto &zones = open->all();
+  if (std::any_of(zones.begin(), zones.end(), [](const OpenZone *one) {
+        return one->zone_varies();
+      })) {    // variables may read any particle
     atomKK->modified(pair->execution_space, space.modified_mask());
     atomKK->sync(Host, ALL_MASK);
-  } else if (neighbor->ago == 0)
-    atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | RMASS_MASK | DESPH_BEFORE_MASK);
-  engine->prepare_rows();
+  } else if (neighbor->ago == 0)    // the fix checks all particles
+    atomKK->sync(Host, X_MASK | V_MASK | MASK_MASK | RMASS_MASK);
+  if (neighbor->ago == 0) {
+    zone_particles.clear();
+    for (const OpenZone *const one : zones)
+      zone_particles.insert(zone_particles.end(), one->zone_particles().begin(),
+                            one->zone_particles().end());
+    std::sort(zone_particles.begin(), zone_particles.end());
+    zone_particles.erase(std::unique(zone_particles.begin(), zone_particles.end()),
+                         zone_particles.end());
+  }
+
+  constexpr uint64_t FIELDS =
+      X_MASK | V_MASK | SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK | ESPH_MASK | DESPH_BEFORE_MASK;
+  const auto &avec = AtomVecSPHBulkKokkos::of(atom);
+  engine->prepare_rows(zone_particles);
   const ParticleRows &there = space.rows(), &here = engine->rows();
-  const OpenGroups groups = open->groups();
-  std::vector<int> particles;
-  for (const OpenZone *const one : open->all())
-    particles.insert(particles.end(), one->zone_particles().begin(), one->zone_particles().end());
-  std::sort(particles.begin(), particles.end());
-  particles.erase(std::unique(particles.begin(), particles.end()), particles.end());
-  near_zones.set(particles);
-  const auto add = [this](double *device, double *host, std::size_t width = 1) {
-    near_zones.add(Field{device, width, static_cast<int>(width)}, host, width);
-  };
-  add(there.particle->x, here.particle->x, sizeof(Particle) / sizeof(double));
-  add(there.zeta_term, here.zeta_term);
-  if (there.par.states) add(there.state_pressure, here.state_pressure);
-  for (double *ParticleRows::*const one :
-       {&ParticleRows::rho, &ParticleRows::drho, &ParticleRows::vfrac, &ParticleRows::esph})
-    add(there.*one, here.*one);
+  near_zones.set(zone_particles);
+  near_zones.there = avec.columns(FIELDS, Device);
+  near_zones.here = avec.columns(FIELDS, Host);
+  near_zones.add(there.particle->x, here.particle->x, sizeof(Particle) / sizeof(double));
+  near_zones.add(there.zeta_term, here.zeta_term);
+  if (there.par.states) near_zones.add(there.state_pressure, here.state_pressure);
   Flows::visit(there.par.flows, [&](auto, int flow) {
-    add(&there.flow[flow]->vol, &here.flow[flow]->vol, sizeof(FlowRow) / sizeof(double));
+    near_zones.add(&there.flow[flow]->vol, &here.flow[flow]->vol, sizeof(FlowRow) / sizeof(double));
   });
   near_zones.get();
   open->set_states();
   near_zones.put();
+  set_ghosts_of_zones();
+}
 
-  const ParticleRows rows = there;
-  double *const place = reach(places, "sph:places", atom->nmax);
+/* ---------------------------------------------------------------------- */
+
+template <class DeviceType> void FluidKokkos<DeviceType>::set_ghosts_of_zones()
+{
+  const ParticleRows rows = space.rows();
+  const OpenGroups groups = open->groups();
+  double *const zone = reach(zone_of, "sph:zone_of", atom->nmax);
   int *const mask = atomKK->k_mask.template view<DeviceType>().data();
   const int nlocal = atom->nlocal;
   space.for_each(
-      "sph:places", nlocal, KOKKOS_LAMBDA(int i) { place[i] = groups.place_of(mask[i]); });
-  space.forward({field(rows.particle, &rows.particle->vol, 2), {place, 1, 1}});
+      "sph:zone_of", nlocal, KOKKOS_LAMBDA(int i) { zone[i] = groups.zone_of(mask[i]); });
+  space.forward({field(rows.particle, &rows.particle->vol, 2), {zone, 1, 1}});
   Flows::visit(rows.par.flows, [&](auto, int flow) {
     space.forward({field(rows.flow[flow], &rows.flow[flow]->vol, 3)});
   });
   space.for_each(
       "sph:ghosts_of_zones", atom->nghost, KOKKOS_LAMBDA(int k) {
         const int i = nlocal + k;
-        mask[i] = groups.mask_at(place[i], mask[i]);
-        if (!(place[i] > 0.0)) return;
+        mask[i] = groups.mask_in(zone[i], mask[i]);
+        if (!(zone[i] > 0.0)) return;
         rows.vfrac[i] = rows.particle[i].vol;
         rows.rho[i] = rows.rmass[i] / rows.vfrac[i];
       });
@@ -615,7 +626,7 @@ template <class DeviceType> template <class Form> void FluidKokkos<DeviceType>::
     EV_FLOAT sum;
     Kokkos::parallel_reduce("sph:impact", Kokkos::RangePolicy<DeviceType>(0, near_zones.size()),
                             ZoneImpactKokkos<DeviceType, Form>{*space.data, near_zones.list,
-                                                               places.data(), k + 1.0,
+                                                               zone_of.data(), k + 1.0,
                                                                model->constants().conducts()},
                             sum);
     OpenImpact impact;
@@ -767,7 +778,7 @@ template <class DeviceType> double FluidKokkos<DeviceType>::memory_usage() const
 {
   return Fluid::memory_usage() + space.memory_usage() + boundary_device->memory_usage() +
       limit_device.memory_usage() + viscous_device.memory_usage() + shift_device.memory_usage() +
-      diffusion_device.memory_usage() + bytes_of(tension, places) + near_zones.memory_usage();
+      diffusion_device.memory_usage() + bytes_of(tension, zone_of) + near_zones.memory_usage();
 }
 
 /* ---------------------------------------------------------------------- */

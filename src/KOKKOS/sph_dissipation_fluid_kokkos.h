@@ -17,7 +17,6 @@
 #include "sph_dissipation_arrays_kokkos.h"
 #include "sph_dissipation_fluid.h"
 #include "sph_dissipation_noise_data.h"
-#include "sph_dissipation_open_kokkos.h"
 #include "sph_dissipation_space_kokkos.h"
 #include "sph_dissipation_viscous.h"
 
@@ -70,6 +69,7 @@ namespace SPHDissipation {
     void set_noise(StepData &);
     void sum_forces(StepData &);
     void set_zones(StepData &);
+    void set_ghosts_of_zones();
     void sum_impacts(StepData &);
     void add_wall_friction(StepData &);
     void sum_tension(StepData &);
@@ -111,8 +111,10 @@ namespace SPHDissipation {
     Kokkos::View<double *, DeviceType> tension;    // energies of owned particles in the last forces
     std::unique_ptr<BoundaryStageKokkos<DeviceType>> boundary_device;
     ViscousStage<Space> viscous_device;
-    SomeParticlesKokkos<DeviceType> near_zones;    // OpenZone::zone_particles() of all zones
-    Kokkos::View<double *, DeviceType> places;     // see OpenGroups
+    std::vector<int>
+        zone_particles;    // OpenZone::zone_particles() of all zones, in ascending order
+    SomeParticlesKokkos<DeviceType> near_zones;
+    Kokkos::View<double *, DeviceType> zone_of;    // see OpenGroups
 
     bool has_own_forces() const override;
     double wall_energy(double *) const override;

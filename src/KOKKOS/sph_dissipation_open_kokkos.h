@@ -16,66 +16,10 @@
 
 // Open ends on the device, as class OpenStage on the host
 
-#include "sph_dissipation_columns_kokkos.h"
 #include "sph_dissipation_loops_kokkos.h"
-
-#include <vector>
 
 namespace LAMMPS_NS {
 namespace SPHDissipation {
-
-  // Some particles, and fields of theirs that are on the device and on the host: copies the values of these particles alone
-
-  template <class DeviceType> class SomeParticlesKokkos {
-   public:
-    Kokkos::View<int *, DeviceType> list;
-
-    // Set the particles; then add their fields, get() them from the device, and put() them back
-    void set(const std::vector<int> &particles)
-    {
-      on_host = particles;
-      renew(list, "sph:some", static_cast<int>(particles.size()));
-      Kokkos::deep_copy(list,
-                        Kokkos::View<const int *, LMPHostType, Kokkos::MemoryUnmanaged>(
-                            particles.data(), particles.size()));
-      there = here = ColumnsKokkos();
-    }
-    template <class Array> void add(const Array &device, double *host, std::size_t width)
-    {
-      there.add(device);
-      here.add(Field{host, width, static_cast<int>(width)});
-    }
-    void get()
-    {
-      grow();
-      pack_columns<DeviceType>(there, {packed.data(), there.n}, size(), list);
-      Kokkos::deep_copy(copy, packed);
-      for (int k = 0; k < size(); k++) here.unpack(on_host[k], &copy(k * here.n));
-    }
-    void put()
-    {
-      grow();
-      for (int k = 0; k < size(); k++) here.pack(on_host[k], &copy(k * here.n));
-      Kokkos::deep_copy(packed, copy);
-      unpack_columns<DeviceType>(there, {packed.data(), there.n}, size(), list);
-    }
-    int size() const { return static_cast<int>(on_host.size()); }
-    double memory_usage() const { return bytes_of(list, packed, copy) + bytes(on_host); }
-
-   private:
-    std::vector<int> on_host;
-    ColumnsKokkos there, here;
-    Kokkos::View<double *, DeviceType> packed;
-    decltype(Kokkos::create_mirror_view(packed)) copy;
-
-    void grow()
-    {
-      const int n = size() * there.n;
-      if (static_cast<int>(packed.extent(0)) == n) return;
-      renew(packed, "sph:some_packed", n);
-      copy = Kokkos::create_mirror_view(packed);
-    }
-  };
 
   struct SlopeKokkos {
     double q;
@@ -88,19 +32,19 @@ namespace SPHDissipation {
   template <class DeviceType, class Form> struct ZoneImpactKokkos {
     LoopDataKokkos<DeviceType> data;
     Kokkos::View<int *, DeviceType> list;    // of owned particles near zones
-    const double *place;                     // see OpenGroups
-    double zone;                             // place of the zone
+    const double *zone_of;                   // see OpenGroups
+    double zone;
     bool conducts;
 
     KOKKOS_INLINE_FUNCTION void operator()(int k, EV_FLOAT &total) const
     {
       const int i = list(k);
-      if (place[i] != 0.0) return;
+      if (zone_of[i] != 0.0) return;
       const Particle pi = data.particle[i];
       const double weight_i = data.weight[i * data.each];
       double force[3] = {0.0, 0.0, 0.0}, couple[3] = {0.0, 0.0, 0.0}, power = 0.0;
       for_neighbors(data, i, [&](int j, const double *r, double rsq) {
-        if (place[j] != zone) return;
+        if (zone_of[j] != zone) return;
         const Particle &pj = data.particle[j];
         const double slope = data.par.slope_norm *
             with_kernel(data.par.kernel, SlopeKokkos{Kokkos::sqrt(rsq) / data.par.support});

@@ -49,7 +49,7 @@ namespace SPHDissipation {
     ~DeviceSpace() override;
 
     // Begin a force computation: prepare() copies the coefficients if they are new, and the fields of particles; begin() also
-    // sets the input of pass 1 of owned and ghost atoms.  not_fluid = bits of the groups of walls
+    // sets the input of pass 1 of owned and ghost atoms.  not_fluid = bits of the groups of walls and open zones
     void prepare();
     void begin(int not_fluid);
 

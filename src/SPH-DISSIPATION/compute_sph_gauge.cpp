@@ -29,7 +29,6 @@
 #include "sph_dissipation_model.h"
 #include "update.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -108,7 +107,6 @@ void ComputeSPHGauge::compute_vector()
   const double support = fluid->support_radius();
   const auto pressure = fluid->pressures();
 
-  const bool periodic = domain->xperiodic || domain->yperiodic || domain->zperiodic;
   const int n = size_vector;
   std::vector<double> mine(2 * n, 0.0), sum(2 * n);    // of the fluid, of walls
   for (int i = 0; i < atom->nlocal; i++) {
@@ -121,8 +119,7 @@ void ComputeSPHGauge::compute_vector()
       const bool level = gauge.axis >= 0;
       if (level && wall) continue;
       double image[3], r[3];
-      std::copy_n(atom->x[i], 3, image);
-      if (periodic) domain->closest_image(gauge.place, atom->x[i], image);
+      domain->closest_image(gauge.place, atom->x[i], image);
       MathExtra::sub3(image, gauge.place, r);
       if (level) r[gauge.axis] = 0.0;
       const double rsq = MathExtra::lensq3(r);

@@ -225,6 +225,7 @@ void FixSPHOpen::measure_sound(std::vector<double> &mine)
   double number = 0.0, sum = 0.0;
   my_longest = 0.0;
   for (const int i : members) {
+    if (!(atom->mask[i] & (groupbit | fluidbit))) continue;
     const double sound = condition->sound_at_rest(i, atom->mask[i] & groupbit);
     if (!(sound > 0.0)) continue;
     const double crossing = fluid->support_radius() / sound;
@@ -290,16 +291,18 @@ void FixSPHOpen::keep_states()
 }
 
 /* ----------------------------------------------------------------------
-   Find the particles of the zone and the fluid near the zone before each neighbor list, and so before all forces of a setup.
+   Find the particles of the zone, and fluid of any zone near it, before each neighbor list, and so before all forces of a setup.
    Number and order of the particles do not change from one list to the next, unless has_lost_members().
 ------------------------------------------------------------------------- */
 
 void FixSPHOpen::find_members()
 {
   const double reach = fluid->support_radius() + neighbor->skin;
+  const OpenGroups groups = fluid->open->groups();
   members.clear();
   for (int i = 0; i < atom->nlocal; i++)
-    if ((atom->mask[i] & groupbit) || ((atom->mask[i] & fluidbit) && zone_near(atom->x[i], reach)))
+    if ((atom->mask[i] & groupbit) ||
+        (groups.zone_of(atom->mask[i]) == 0.0 && zone_near(atom->x[i], reach)))
       members.push_back(i);
 }
 

@@ -53,7 +53,7 @@ class FixSPHOpen : public Fix, public SPHDissipation::OpenZone {
   int setmask() override;
   void init() override;
   void setup_pre_exchange() override;
-  void setup_pre_neighbor() override { find_members(); }
+  void setup_pre_neighbor() override { pre_neighbor(); }
   void setup(int) override;
   void initial_integrate(int) override;
   void post_integrate() override;

@@ -127,11 +127,11 @@ namespace SPHDissipation {
     // Return whether a particle at x may have pairs across the border of zone and fluid, if pairs are as long as reach
     virtual bool zone_near(const double *x, double reach) const = 0;
 
-    // Return the owned particles of the zone, and those of the fluid that may have pairs across the border until the next
-    // neighbor list
+    // Return the owned particles of the zone, and those of the fluids of all zones that may have pairs across the border of
+    // this zone until the next neighbor list
     virtual const std::vector<int> &zone_particles() const = 0;
 
-    virtual bool zone_varies() const = 0;    // return whether variables have prescribed values
+    virtual bool zone_varies() const = 0;    // return whether variables prescribe values
 
     // Append numbers of this processor, as many on each processor; set_states() gets the sums over all processors.  One
     // message has the numbers of all zones

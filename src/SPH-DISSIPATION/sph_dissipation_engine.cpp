@@ -215,12 +215,14 @@ void Engine::grow_flows()
 
 /* ---------------------------------------------------------------------- */
 
-void Engine::prepare_rows()
+void Engine::prepare_rows(const std::vector<int> &some)
 {
   grow_atoms();
   grow_flows();
   set_rows();
-  set_weights();
+  if (par->volume != Volume::MASS) return;    // otherwise, set_rows() has set all weights to 1
+  grow_weights();
+  for (const int i : some) weights[i] = atom_rows->reference_volume(i);
 }
 
 /* ----------------------------------------------------------------------
@@ -319,18 +321,24 @@ void Engine::set_weights()
     data.weight = nullptr;
     return;
   }
-  if (nmax_weights < nmax) {
-    nmax_weights = nmax;
-    memory->destroy(weights);
-    memory->create(weights, nmax + BLOCK, "sph:weight");
-  }
+  grow_weights();
   const int nall = atom->nlocal + atom->nghost;
   for_each(nall, [&](int i) {
     weights[i] = by_mass ? atom_rows->reference_volume(i) : 1.0;
     density[i].c *= weights[i];
   });
   std::fill_n(weights + nall, BLOCK, 0.0);
-  data.weight = atom_rows->weight = weights;
+  data.weight = weights;
+}
+
+void Engine::grow_weights()
+{
+  if (nmax_weights < nmax) {
+    nmax_weights = nmax;
+    memory->destroy(weights);
+    memory->create(weights, nmax + BLOCK, "sph:weight");
+  }
+  atom_rows->weight = weights;
   atom_rows->each = 1;
 }
 

@@ -275,8 +275,9 @@ namespace SPHDissipation {
     // Choose the loops for these parameters, which the loops read until the next call
     void setup(const Parameters &);
 
-    // Make room for owned and ghost atoms, and set rows(), for stages of the host while the loops run on a device
-    void prepare_rows();
+    // Make room for owned and ghost atoms, and set rows() for these atoms, for stages of the host while the loops run on a
+    // device
+    void prepare_rows(const std::vector<int> &);
 
     // Pass 1: set particle[] from atom->x and vest (nullptr: zero), spin[] from omegaest (micropolar; nullptr: zero).  Sum
     // density[] of owned atoms (with the particle itself) and the contributions to ghost atoms.  slopes_read: stages, or
@@ -434,6 +435,7 @@ namespace SPHDissipation {
     void grow_atoms();
     void set_rows();
     void grow_flows();
+    void grow_weights();
     void set_weights();
     void grow_pairs(NeighList *, bool leaves_slopes);
     LoopData part(int thread) const;    // the rows of the neighbor list of this thread

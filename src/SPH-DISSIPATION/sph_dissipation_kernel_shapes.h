@@ -139,7 +139,7 @@ struct QuinticSpline {
   }
 };
 
-// Call function(KernelClass()) for the kernel chosen at run time; on a device, function must be of the device
+// Call function(KernelClass()) for the kernel chosen at run time; device code may call it with a function that runs there
 
 #ifdef __CUDACC__
 #pragma nv_exec_check_disable

@@ -89,7 +89,7 @@ void OpenStage::run()
   set_states();
   const OpenGroups now = groups();
   zone_of.resize(atom->nlocal + atom->nghost);
-  for (int i = 0; i < atom->nlocal; i++) zone_of[i] = now.place_of(atom->mask[i]);
+  for (int i = 0; i < atom->nlocal; i++) zone_of[i] = now.zone_of(atom->mask[i]);
   Particle *const particle = engine.particle;
   exchange.forward({field(particle, &particle->vol, 2), {zone_of.data(), 1, 1}});
   Flows::visit(engine.constants().flows, [&](auto, int k) {
@@ -152,7 +152,7 @@ OpenGroups OpenStage::groups() const
 void OpenStage::update_ghosts(const OpenGroups &now)
 {
   for (int i = atom->nlocal; i < atom->nlocal + atom->nghost; i++) {
-    atom->mask[i] = now.mask_at(zone_of[i], atom->mask[i]);
+    atom->mask[i] = now.mask_in(zone_of[i], atom->mask[i]);
     if (!(zone_of[i] > 0.0)) continue;
     atom->vfrac[i] = engine.particle[i].vol;
     atom->rho[i] = atom->rmass[i] / atom->vfrac[i];

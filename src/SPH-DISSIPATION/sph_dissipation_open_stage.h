@@ -34,29 +34,30 @@ namespace SPHDissipation {
     void add(const Spin &, const double *couple);
   };
 
-  // Groups of the zones and of their fluids, on host and device.  The place of a particle is 0 in a fluid, k in zone k - 1, -1
-  // elsewhere.  Groups of owned particles change between two neighbor lists; ghosts get place and group of their owner.
+  // Groups of the zones and of their fluids, on host and device.  The zone of a particle is 0 in a fluid, k in zone k - 1, -1
+  // elsewhere.  Groups of owned particles change between two neighbor lists; ghosts get the group that their owner has now.
 
   struct OpenGroups {
-    static constexpr int MOST = 32;    // groups in LAMMPS
+    static constexpr int MOST = 32;    // each zone has a group of its own
     int n = 0, fluid[MOST], zone[MOST];
 
-    SPH_FUNCTION double place_of(int mask) const
+    SPH_FUNCTION double zone_of(int mask) const
     {
-      double place = -1.0;
+      double of = -1.0;
       for (int k = 0; k < n; k++)
-        if ((mask & fluid[k]) && place < 0.0) place = 0.0;
-      for (int k = 0; k < n; k++)
-        if (mask & zone[k]) place = k + 1.0;
-      return place;
+        if (mask & zone[k])
+          of = k + 1.0;
+        else if (of < 0.0 && (mask & fluid[k]))
+          of = 0.0;
+      return of;
     }
-    SPH_FUNCTION int mask_at(double place, int mask) const
+    SPH_FUNCTION int mask_in(double zone_of, int mask) const
     {
-      if (place > 0.0) {
-        const int k = static_cast<int>(place) - 1;
+      if (zone_of > 0.0) {
+        const int k = static_cast<int>(zone_of) - 1;
         return (mask & ~fluid[k]) | zone[k];
       }
-      for (int k = 0; k < n && place == 0.0; k++)
+      for (int k = 0; k < n && zone_of == 0.0; k++)
         if (mask & zone[k]) mask = (mask & ~zone[k]) | fluid[k];
       return mask;
     }
@@ -86,7 +87,7 @@ namespace SPHDissipation {
       return engine.constants().states ? engine.state_pressure[i] : 0.0;
     }
 
-    // With the device, the two parts of run(): set the states of owned particles of zones; the groups for the ghosts
+    // run() in parts, for a device: set_states() sets the owned particles of the zones; groups() has what ghosts need
     void set_states();
     OpenGroups groups() const;
     const std::vector<OpenZone *> &all() const { return zones; }
@@ -102,7 +103,7 @@ namespace SPHDissipation {
     std::vector<OpenZone *> zones;
     int zone_bits = 0;
 
-    std::vector<double> zone_of;    // places of owned and ghost particles, see OpenGroups
+    std::vector<double> zone_of;    // of owned and ghost particles, see OpenGroups
 
     std::vector<std::vector<int>> rows;    // rows of the neighbor list near the plane of each zone
 
