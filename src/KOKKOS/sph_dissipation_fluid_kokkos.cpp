@@ -565,8 +565,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_zones(StepData &)
                          zone_particles.end());
   }
 
-  constexpr uint64_t FIELDS =
-      X_MASK | V_MASK | SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK | ESPH_MASK | DESPH_BEFORE_MASK;
+  constexpr uint64_t MOVED = X_MASK | V_MASK | DESPH_BEFORE_MASK;    // no forces need v
+  constexpr uint64_t FIELDS = MOVED | SPH_RHO_MASK | DRHO_MASK | VFRAC_MASK | ESPH_MASK;
+  atomKK->sync(pair->execution_space, MOVED);
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   engine->prepare_rows(zone_particles);
   const ParticleRows &there = space.rows(), &here = engine->rows();
