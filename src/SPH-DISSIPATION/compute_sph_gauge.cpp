@@ -29,6 +29,7 @@
 #include "sph_dissipation_model.h"
 #include "update.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -86,6 +87,14 @@ void ComputeSPHGauge::init()
   if (dim != domain->dimension)
     error->all(FLERR, "Compute {} needs a kernel of the dimension of the simulation, not dim {}",
                style, dim);
+  for (const Gauge &gauge : gauges)
+    for (int d = 0; d < dim; d++)
+      if (domain->periodicity[d] && d != gauge.axis &&
+          std::fabs(gauge.place[d] - domain->boxlo[d] - 0.5 * domain->prd[d]) >
+              1.5 * domain->prd[d])
+        error->all(FLERR,
+                   "Compute {}: place {:g} is outside of the periodic box by more than its length",
+                   style, gauge.place[d]);
 }
 
 /* ----------------------------------------------------------------------
@@ -118,9 +127,11 @@ void ComputeSPHGauge::compute_vector()
       const Gauge &gauge = gauges[k];
       const bool level = gauge.axis >= 0;
       if (level && wall) continue;
-      double image[3], r[3];
-      domain->closest_image(gauge.place, atom->x[i], image);
-      MathExtra::sub3(image, gauge.place, r);
+      double place[3], image[3], r[3];
+      std::copy_n(gauge.place, 3, place);
+      if (level) place[gauge.axis] = atom->x[i][gauge.axis];
+      domain->closest_image(place, atom->x[i], image);
+      MathExtra::sub3(image, place, r);
       if (level) r[gauge.axis] = 0.0;
       const double rsq = MathExtra::lensq3(r);
       if (rsq >= support * support) continue;

@@ -112,6 +112,7 @@ def test_gauges(lammps, dim, ranks):
     (2, "pressure 1.0 2.0 0.5", "pressure: z must be 0 in 2d"), (2, "pressure 1.0 NULL 0.0", "Expected floating point parameter"),
     (2, "level 1.0 2.0 0.0", "NULL must stand for the coordinate along the level"),
     (2, "level 1.0 2.0 NULL", "NULL must stand for one coordinate of the box"), (3, "level 1.0 NULL NULL", "NULL must stand for one coordinate"),
+    (3, "pressure 1.0 1e300 1.0\nrun 0", "place 1e+300 is outside of the periodic box by more than its length"),
     (3, "front 1.0 0.0 0.0", "Unknown compute sph/gauge keyword: front"),
     (3, "level 1.0 1.0 NULL\nvariable h equal c_A[1]\nrun 0\ndelete_atoms random count 1 yes all NULL 4711\nprint $h", "use run 0 first"),
     (3, "level 1.0 1.0 NULL\npair_style none\nrun 0", "requires pair style sph/bulk or sph/micropolar"),
