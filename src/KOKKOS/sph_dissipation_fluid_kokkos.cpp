@@ -577,9 +577,9 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_zones(StepData &)
   near_zones.add(there.particle->x, here.particle->x, sizeof(Particle) / sizeof(double));
   near_zones.add(there.zeta_term, here.zeta_term);
   if (there.par.states) near_zones.add(there.state_pressure, here.state_pressure);
-  Flows::visit(there.par.flows, [&](auto, int flow) {
-    near_zones.add(&there.flow[flow]->vol, &here.flow[flow]->vol, sizeof(FlowRow) / sizeof(double));
-  });
+  for (int k = 0; k < Flows::NUMBER; k++)
+    if (there.par.flows >> k & 1)
+      near_zones.add(&there.flow[k]->vol, &here.flow[k]->vol, sizeof(FlowRow) / sizeof(double));
   near_zones.get();
   open->set_states();
   near_zones.put();
@@ -598,9 +598,8 @@ template <class DeviceType> void FluidKokkos<DeviceType>::set_ghosts_of_zones()
   space.for_each(
       "sph:zone_of", nlocal, KOKKOS_LAMBDA(int i) { zone[i] = groups.zone_of(mask[i]); });
   space.forward({field(rows.particle, &rows.particle->vol, 2), {zone, 1, 1}});
-  Flows::visit(rows.par.flows, [&](auto, int flow) {
-    space.forward({field(rows.flow[flow], &rows.flow[flow]->vol, 3)});
-  });
+  for (int k = 0; k < Flows::NUMBER; k++)
+    if (rows.par.flows >> k & 1) space.forward({field(rows.flow[k], &rows.flow[k]->vol, 3)});
   space.for_each(
       "sph:ghosts_of_zones", atom->nghost, KOKKOS_LAMBDA(int k) {
         const int i = nlocal + k;
