@@ -16,6 +16,12 @@
 
 #include "atom_masks.h"
 
+// LAMMPS of 4 Feb 2025 has macros with names of the fields below
+
+#undef DRHO_MASK
+#undef VFRAC_MASK
+#undef VEST_MASK
+
 // Bits of the package's own fields for sync() and modified() of class AtomKokkos, which passes them to the atom style: from
 // the highest bit down, while LAMMPS's atom_masks.h begins with the lowest.  With KOKKOS, LAMMPS copies the fields in
 // datamask_read of a fix without suffix to the host before each call, and those in datamask_modify back: all fields, if the
