@@ -32,9 +32,10 @@ using namespace SPHDissipation;
 
 static constexpr uint64_t ENERGY = ESPH_MASK | DESPH_BEFORE_MASK;
 static constexpr uint64_t IDENTITY = TAG_MASK | TYPE_MASK | MASK_MASK | IMAGE_MASK | RMASS_MASK;
-static constexpr uint64_t FIELDS = X_MASK | V_MASK | F_MASK | OMEGA_MASK | TORQUE_MASK | VEST_MASK |
-    OMEGAEST_MASK | INERTIA_MASK | SPH_RHO_MASK | DRHO_MASK | DESPH_MASK | ENERGY | OFFSET_MASK |
-    STATES_MASK;
+static constexpr uint64_t MOTION = X_MASK | V_MASK;
+static constexpr uint64_t ENTERS_OR_LEAVES = MOTION | MASK_MASK | F_MASK | OMEGA_MASK |
+    TORQUE_MASK | VEST_MASK | OMEGAEST_MASK | INERTIA_MASK | SPH_RHO_MASK | DRHO_MASK | DESPH_MASK |
+    ENERGY | OFFSET_MASK | STATES_MASK;
 
 /* ---------------------------------------------------------------------- */
 
@@ -70,26 +71,26 @@ void FixSPHOpenKokkos<DeviceType>::with_all(const Task &task)
 }
 
 /* ----------------------------------------------------------------------
-   Run a task of the CPU style with the fields of the particles of the zone and near it.  The host gets the groups of all
-   particles; regroups: the task changes groups, which the device gets back.
+   Run a task of the CPU style with these fields of the particles of the zone and near it.  The host gets the groups of all
+   particles; the device gets the groups back if they are among the fields.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType>
 template <class Task>
-void FixSPHOpenKokkos<DeviceType>::with_some(bool regroups, const Task &task)
+void FixSPHOpenKokkos<DeviceType>::with_some(uint64_t fields, const Task &task)
 {
   if (!std::is_same_v<DeviceType, LMPDeviceType> || !fluid->computes_on_device())
     return with_all(task);
   atomKK->sync(Host, IDENTITY);
-  atomKK->sync(execution_space, FIELDS);
+  atomKK->sync(execution_space, fields);
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
   some->set(members);
-  some->there = avec.columns(FIELDS, Device);
-  some->here = avec.columns(FIELDS, Host);
+  some->there = avec.columns(fields, Device);
+  some->here = avec.columns(fields, Host);
   some->get();
   task();
   some->put();
-  if (regroups) atomKK->modified(Host, MASK_MASK);
+  atomKK->modified(Host, fields & MASK_MASK);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -118,13 +119,13 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup(int vflag)
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::initial_integrate(int vflag)
 {
-  with_some(false, [this, vflag]() {
+  with_some(MOTION, [this, vflag]() {
     FixSPHOpen::initial_integrate(vflag);
   });
 }
 
 /* ----------------------------------------------------------------------
-   Variables may read any particles.
+   Variables may read any particle.
 ------------------------------------------------------------------------- */
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::post_integrate()
@@ -135,7 +136,7 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::post_integrate()
   if (zone_varies() || has_lost_members())
     with_all(task);
   else
-    with_some(true, task);
+    with_some(ENTERS_OR_LEAVES, task);
 }
 
 /* ---------------------------------------------------------------------- */
@@ -149,7 +150,7 @@ template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::pre_exchange()
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::final_integrate()
 {
-  with_some(false, [this]() {
+  with_some(ENERGY, [this]() {
     FixSPHOpen::final_integrate();
   });
 }

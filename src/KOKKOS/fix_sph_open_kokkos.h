@@ -51,7 +51,7 @@ template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
       some;    // of the zone and near it
 
   template <class Task> void with_all(const Task &);
-  template <class Task> void with_some(bool regroups, const Task &);
+  template <class Task> void with_some(uint64_t fields, const Task &);
 };
 
 }    // namespace LAMMPS_NS
