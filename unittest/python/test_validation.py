@@ -87,6 +87,7 @@ WHERE = {
     "Sphere in a cubic array": (("results.txt", rf"^0\.22512 +\S+ +\S+ +{N}"), ("results.txt", rf"^0\.22512 +\S+ +{N}")),
     "Beam of bonds under a column of water": (None, ("results.txt", rf"^fine: deflection over theory: {N}")),
     "The same, frequency over theory": (None, ("results.txt", rf"^fine: frequency over theory: {N}")),
+    "Rubber gate of a tank": (("results.txt", rf"^largest x of the tip, mm: .*, wanted {N} to"), ("results.txt", rf"^largest x of the tip, mm: {N},")),
     "Gas below a piston": (("results.txt", rf"^monatomic gas, piston of mass 4, height of the piston: .* exact {N};"),
                            ("results.txt", rf"^monatomic gas, piston of mass 4, height of the piston: {N} ")),
 }
