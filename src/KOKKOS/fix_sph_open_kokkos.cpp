@@ -79,8 +79,7 @@ template <class DeviceType>
 template <class Task>
 void FixSPHOpenKokkos<DeviceType>::with_some(uint64_t fields, const Task &task)
 {
-  if (!std::is_same_v<DeviceType, LMPDeviceType> || !fluid->computes_on_device())
-    return with_all(task);
+  if (!on_device) return with_all(task);
   atomKK->sync(Host, IDENTITY);
   atomKK->sync(execution_space, fields);
   const auto &avec = AtomVecSPHBulkKokkos::of(atom);
@@ -97,6 +96,7 @@ void FixSPHOpenKokkos<DeviceType>::with_some(uint64_t fields, const Task &task)
 
 template <class DeviceType> void FixSPHOpenKokkos<DeviceType>::setup_pre_exchange()
 {
+  on_device = std::is_same_v<DeviceType, LMPDeviceType> && fluid->computes_on_device();
   with_all([this]() {
     FixSPHOpen::setup_pre_exchange();
   });

@@ -48,7 +48,8 @@ template <class DeviceType> class FixSPHOpenKokkos : public FixSPHOpen {
 
  private:
   const std::unique_ptr<SPHDissipation::SomeParticlesKokkos<DeviceType>>
-      some;    // of the zone and near it
+      some;                  // of the zone and near it
+  bool on_device = false;    // the last setup found the particles of the fluid on the device
 
   template <class Task> void with_all(const Task &);
   template <class Task> void with_some(uint64_t fields, const Task &);
