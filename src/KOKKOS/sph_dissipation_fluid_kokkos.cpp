@@ -97,6 +97,27 @@ template <class DeviceType> void FluidKokkos<DeviceType>::request_list()
   neighbor->add_request(pair);
 }
 
+// A pair style has a list of the host while this object exists, also if an error ends the task
+
+class HostList {
+ public:
+  HostList(Pair *pair, NeighList *list) :
+      pair(pair), before(std::exchange(pair->list, list)),
+      space(std::exchange(pair->execution_space, Host))
+  {
+  }
+  ~HostList()
+  {
+    pair->list = before;
+    pair->execution_space = space;
+  }
+
+ private:
+  Pair *const pair;
+  NeighList *const before;
+  const ExecutionSpace space;
+};
+
 /* ----------------------------------------------------------------------
    Run a task of the CPU style while the forces are computed on the device: with the particles, a neighbor list, and
    communication on the host.
@@ -110,12 +131,10 @@ template <class DeviceType> void FluidKokkos<DeviceType>::on_host(const std::fun
     return atomKK->modified(Host, FLUID_SET_ON_HOST);
   }
   build_host_list();
-  NeighList *const device_list = pair->list;
-  pair->list = host_list.get();
-  pair->execution_space = Host;
-  task();
-  pair->execution_space = ExecutionSpaceFromDevice<DeviceType>::space;
-  pair->list = device_list;
+  {
+    const HostList use(pair, host_list.get());
+    task();
+  }
   atomKK->modified(Host, FLUID_SET_ON_HOST);
 }
 
@@ -301,6 +320,7 @@ template <class DeviceType> void FluidKokkos<DeviceType>::advance_states()
 template <class DeviceType> bigint FluidKokkos<DeviceType>::compute(PairTally *tally)
 {
   if (!on_device) {
+    nlocal_device = -1;
     threads->for_each(atom->nlocal + atom->nghost, [&](int i) {
       atom->desph[i] = 0.0;
     });

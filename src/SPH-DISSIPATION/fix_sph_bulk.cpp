@@ -756,17 +756,22 @@ void FixSPHBulk::integrate(Half half)
 }
 
 /* ----------------------------------------------------------------------
-   Stop if init() has not run: time step, pair style, and forces would be missing, or of another fix.
+   Stop if no setup has run: time step, pair style, and forces would be missing, or of another fix.
 ------------------------------------------------------------------------- */
 
 void FixSPHBulk::check_set_up()
 {
   SPHDissipation::check_set_up(lmp, this, set_up);
   const Fluid *const now = find_own_fluid();
-  if (now != fluid || (now && !now->is_set_up()))
+  if (now != fluid || (now && !now->is_ready()))
     error->all(FLERR, Error::NOLASTLINE,
                "Fix {} {}: the pair style or its coefficients were changed after the last run was "
                "set up: the next one cannot be a run with pre no",
+               id, style);
+  if (now && now->was_minimized())
+    error->all(FLERR, Error::NOLASTLINE,
+               "Fix {} {}: the state is that of a minimization: the next run cannot be a run with "
+               "pre no",
                id, style);
 }
 

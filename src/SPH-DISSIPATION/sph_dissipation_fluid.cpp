@@ -102,6 +102,7 @@ void Fluid::settings(int narg, char **arg)
                style, model->simd);
   log->renew();
   set_up = false;
+  last_setup = 0;
 }
 
 /* ----------------------------------------------------------------------
@@ -114,13 +115,14 @@ void Fluid::coeff(int narg, char **arg)
   model->coeff(narg, arg, pair->setflag);
   log->renew();
   set_up = false;
+  last_setup = 0;
 }
 
 /* ---------------------------------------------------------------------- */
 
 void Fluid::init()
 {
-  continued = false;
+  continued = listed = false;
   shift->movers.clear();
   integrated = 0;
   for (const Fix *const fix : modify->get_fix_by_style("^" + style)) integrated |= fix->groupbit;
@@ -161,6 +163,11 @@ NeighList *Fluid::neighbors()
 bool Fluid::is_set_up() const
 {
   return pair->list && set_up;
+}
+
+bool Fluid::is_ready() const
+{
+  return is_set_up() && (last_setup != 0 || !pair->compute_flag);
 }
 
 /* ----------------------------------------------------------------------
@@ -283,11 +290,18 @@ bigint Fluid::compute(PairTally *tally)
 void Fluid::begin_forces()
 {
   const FluidChecks check(lmp, style, *model);
+  if (neighbor->ago == 0 || update->setupflag) listed = true;
+  if (!listed && !own_list)
+    error->all(FLERR, Error::NOLASTLINE,
+               "Pair style {}: a command after the last run, such as write_data or write_restart, "
+               "has made the neighbor list anew: the next run cannot be a run with pre no",
+               style);
   if (neighbor->ago == 0) {
     check.masses();
     log->check_list(not_fluid());
   }
   if (update->setupflag) {
+    last_setup = update->whichflag;
     check.numbers();
     viscous->begin_run();
     temperature->begin_run();
@@ -804,7 +818,7 @@ void Fluid::set_temperature(int groupbit, const std::function<double(int)> &valu
 
 bool Fluid::has_forces() const
 {
-  return over_all<int>(world, has_own_forces(), MPI_MIN);
+  return over_all<int>(world, last_setup != 0 && has_own_forces(), MPI_MIN);
 }
 
 bool Fluid::has_own_forces() const

@@ -195,7 +195,13 @@ namespace SPHDissipation {
     void begin_anew() { continued = false; }
     void note_change() { changed = true; }
 
-    bool is_set_up() const;    // init() has run since the last pair_style and pair_coeff
+    // Since the last pair_style and pair_coeff: is_set_up(): init() has run; is_ready(): the setup of a run or minimization
+    // has computed forces as well, unless pair_modify compute is no; was_minimized(): the last setup was that of a
+    // minimization
+
+    bool is_set_up() const;
+    bool is_ready() const;
+    bool was_minimized() const { return last_setup == 2; }
 
     // For a fix that acts in few steps: with KOKKOS, copy these fields of the particles to the host; note that the host has
     // changed the particles
@@ -267,6 +273,9 @@ namespace SPHDissipation {
    private:
     bool shifted = false;    // by shift_in_step(), in this step
     bool set_up = false;     // init() has run since the last pair_style or pair_coeff
+    int last_setup =
+        0;    // since the last pair_style or pair_coeff: 0 none, 1 of a run, 2 of a minimization
+    bool listed = false;    // a neighbor list was built since init()
     bool continued =
         false;    // the run continues the last one, with the velocities of its last step
     bool follows =

@@ -9,7 +9,7 @@ import textwrap
 import numpy as np
 import pytest
 
-from helpers import INTEGRATE, LMP, MPI_ENVIRONMENT, SUPPORT, disordered, drop, dump, fluid, free, header, relative
+from helpers import DEVICE_LOOPS, INTEGRATE, LMP, MPI_ENVIRONMENT, SUPPORT, disordered, drop, dump, fluid, free, header, relative
 import test_micropolar as micropolar
 
 # Python is not built with the sanitizers, whose library would have to be loaded first
@@ -539,6 +539,41 @@ def test_fix_defined_again_and_no_setup(lammps, name):
     result = lammps(between_runs(name, "FIX\nrun 2\nFIX\ntimestep 0.0005\nrun 2 pre no\n"), check=False)
     assert result.code == 1 and "was defined after the last run was set up" in result.error, result.output[-2000:]
     lammps(between_runs(name, "FIX\nrun 2\nFIX\nrun 2\nrun 2 pre no\n"))
+
+
+@pytest.mark.parametrize("neighbor", ["bin", "nsq"])
+def test_a_file_between_runs_and_no_setup(lammps, neighbor):
+    """write_data makes a list of LAMMPS anew; the package builds its own list when it needs it."""
+    begin = f"neighbor 0.3 {neighbor}\nFIX\n"
+    result = lammps(between_runs("wall", begin + "run 2\nwrite_data new.data\nrun 20 pre no\n"), check=False)
+    if DEVICE_LOOPS or neighbor == "nsq":
+        assert result.code == 1 and "has made the neighbor list anew" in result.error, result.output[-2000:]
+    else:
+        whole = lammps(between_runs("wall", begin + "run 22\n")).thermo()[-1]["PotEng"]
+        assert abs(result.thermo()[-1]["PotEng"][-1] / whole[-1] - 1) < 1e-12
+
+
+NEW_PAIR = "FIX\nrun 2\npair_style none\npair_style {style} volume mass\npair_coeff * * {coeff}\n"
+
+
+@pytest.mark.parametrize("name, commands", [("wall", NEW_PAIR), ("rkl2", NEW_PAIR), ("wall", "FIX\npair_modify compute no\nrun 2\npair_modify compute yes\n")])
+def test_new_forces_and_no_setup(lammps, name, commands):
+    """write_data initializes the pair style; forces are those of a setup."""
+    result = lammps(between_runs(name, commands + "write_data new.data\nrun 2 pre no\n"), check=False)
+    assert result.code == 1 and "changed after the last run was set up" in result.error, result.output[-2000:]
+
+
+def test_energy_of_a_tension_that_has_no_forces(lammps):
+    text = between_runs("wall", "FIX\nrun 2\npair_coeff * * {coeff} cohesion 0.1\nwrite_data new.data\nprint '$(c_E)'\n")
+    text = text.replace("thermo_style", "compute E all sph/energy\nthermo_style").replace("volume mass", "density continuity tension yes")
+    result = lammps(text, check=False)
+    assert result.code == 1 and "needs the forces of the present particles" in result.error, result.output[-2000:]
+
+
+def test_minimization_and_no_setup(lammps):
+    """The volumes and velocities of a run begin in its setup."""
+    result = lammps(between_runs("wall", "FIX\nrun 1\nminimize 0 0 3 10\nrun 50 pre no\n"), check=False)
+    assert result.code == 1 and "the state is that of a minimization" in result.error, result.output[-2000:]
 
 
 def test_temperature_of_a_pair_style_without_coefficients(lammps):
