@@ -165,6 +165,11 @@ bool Fluid::is_set_up() const
   return pair->list && set_up;
 }
 
+bool Fluid::has_list() const
+{
+  return own_list || listed || !pair->compute_flag;
+}
+
 bool Fluid::is_ready() const
 {
   return is_set_up() && (last_setup != 0 || !pair->compute_flag);
@@ -290,18 +295,13 @@ bigint Fluid::compute(PairTally *tally)
 void Fluid::begin_forces()
 {
   const FluidChecks check(lmp, style, *model);
-  if (neighbor->ago == 0 || update->setupflag) listed = true;
-  if (!listed && !own_list)
-    error->all(FLERR, Error::NOLASTLINE,
-               "Pair style {}: a command after the last run, such as write_data or write_restart, "
-               "has made the neighbor list anew: the next run cannot be a run with pre no",
-               style);
   if (neighbor->ago == 0) {
     check.masses();
     log->check_list(not_fluid());
   }
   if (update->setupflag) {
     last_setup = update->whichflag;
+    listed = true;
     check.numbers();
     viscous->begin_run();
     temperature->begin_run();
