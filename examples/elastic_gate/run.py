@@ -53,7 +53,8 @@ def plot(path, runs, other):
         values = LARGEST_X if part == "x" else LARGEST_Y
         axes.axhspan(min(values), max(values), color="k", alpha=0.12, lw=0, label="SPHinXsys, largest")
         axes.set(title=title, xlabel="t, s", xlim=(0, 0.4), ylim=(0, None))
-    axes.legend(fontsize=8, loc="lower center")
+        if part == "x":
+            axes.legend(fontsize=8, loc="lower right")
     save(figure, path)
 
 

@@ -84,6 +84,7 @@ template <class DeviceType> FluidKokkos<DeviceType>::~FluidKokkos() = default;
 
 template <class DeviceType> void FluidKokkos<DeviceType>::choose(bool device)
 {
+  if (device != on_device) last_setup = 0;    // the list of LAMMPS is another one, and not built
   on_device = device;
   space.forget_coeffs();
 }

@@ -773,11 +773,6 @@ void FixSPHBulk::check_set_up()
                "Fix {} {}: the state is that of a minimization: the next run cannot be a run with "
                "pre no",
                id, style);
-  if (now && !now->has_list())
-    error->all(FLERR, Error::NOLASTLINE,
-               "Fix {} {}: a command after the last run, such as write_data or write_restart, has "
-               "made the neighbor list anew: the next run cannot be a run with pre no",
-               id, style);
 }
 
 /* ----------------------------------------------------------------------

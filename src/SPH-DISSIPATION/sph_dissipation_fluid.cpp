@@ -122,7 +122,7 @@ void Fluid::coeff(int narg, char **arg)
 
 void Fluid::init()
 {
-  continued = listed = false;
+  continued = false;
   shift->movers.clear();
   integrated = 0;
   for (const Fix *const fix : modify->get_fix_by_style("^" + style)) integrated |= fix->groupbit;
@@ -163,11 +163,6 @@ NeighList *Fluid::neighbors()
 bool Fluid::is_set_up() const
 {
   return pair->list && set_up;
-}
-
-bool Fluid::has_list() const
-{
-  return own_list || listed || !pair->compute_flag;
 }
 
 bool Fluid::is_ready() const
@@ -301,7 +296,6 @@ void Fluid::begin_forces()
   }
   if (update->setupflag) {
     last_setup = update->whichflag;
-    listed = true;
     check.numbers();
     viscous->begin_run();
     temperature->begin_run();

@@ -202,8 +202,6 @@ namespace SPHDissipation {
     bool is_set_up() const;
     bool is_ready() const;
     bool was_minimized() const { return last_setup == 2; }
-    bool
-    has_list() const;    // no command since the last setup has made a list of LAMMPS anew, unbuilt
 
     // For a fix that acts in few steps: with KOKKOS, copy these fields of the particles to the host; note that the host has
     // changed the particles
@@ -233,6 +231,7 @@ namespace SPHDissipation {
     double support = 0.0;     // support radius rc
     bool stale = false;       // adopt() must derive the parameters from the coefficients
     bool own_list = false;    // NeighborSearch builds the neighbor list, not LAMMPS
+    int last_setup = 0;       // since the last pair_coeff: 0 none, 1 of a run, 2 of a minimization
 
     // Run a task on the particles and the half neighbor list of the host; the task may set densities and masses
 
@@ -275,9 +274,6 @@ namespace SPHDissipation {
    private:
     bool shifted = false;    // by shift_in_step(), in this step
     bool set_up = false;     // init() has run since the last pair_style or pair_coeff
-    int last_setup =
-        0;    // since the last pair_style or pair_coeff: 0 none, 1 of a run, 2 of a minimization
-    bool listed = false;    // a setup has built a list of LAMMPS since init()
     bool continued =
         false;    // the run continues the last one, with the velocities of its last step
     bool follows =

@@ -542,17 +542,23 @@ def test_fix_defined_again_and_no_setup(lammps, name):
 
 
 @pytest.mark.parametrize("neighbor", ["bin", "nsq"])
-def test_a_file_between_runs_and_no_setup(lammps, neighbor):
-    """write_data makes a list of LAMMPS anew; the package builds its own list when it needs it."""
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_file_between_runs_and_no_setup(lammps, neighbor, ranks):
+    """A stream goes on after write_data, with lists of the package, of LAMMPS, and of KOKKOS."""
     if KOKKOS and neighbor == "nsq":
         pytest.skip("KOKKOS has lists with bins alone")
-    begin = f"neighbor 0.3 {neighbor}\nFIX\n"
-    result = lammps(between_runs("wall", begin + "run 2\nwrite_data new.data\nrun 20 pre no\n"), check=False)
-    if DEVICE_LOOPS or neighbor == "nsq":
-        assert result.code == 1 and "has made the neighbor list anew" in result.error, result.output[-2000:]
-    else:
-        whole = lammps(between_runs("wall", begin + "run 22\n")).thermo()[-1]["PotEng"]
-        assert abs(result.thermo()[-1]["PotEng"][-1] / whole[-1] - 1) < 1e-12
+    text = f"neighbor 0.3 {neighbor}\nvelocity fluid set 8 3 0\nFIX\ntimestep 0.002\n"
+    whole, parts = (lammps(between_runs("wall", text + runs), ranks=ranks).thermo()[-1]["PotEng"][-1]
+                    for runs in ("run 60\n", "run 30\nwrite_data new.data\nrun 30 pre no\n"))
+    assert whole > 0.1 and abs(parts / whole - 1) < 1e-10
+
+
+@pytest.mark.skipif(not DEVICE_LOOPS, reason="KOKKOS alone moves a fluid to a device")
+def test_a_fluid_that_goes_to_the_device_and_no_setup(lammps):
+    """write_data moves the fluid to the device, whose list is not built."""
+    text = "suffix off\nFIX\nsuffix on\nrun 2\nunfix NEW\nwrite_data new.data\nrun 4 pre no\n"
+    result = lammps(between_runs("wall", text), check=False)
+    assert result.code == 1 and "changed after the last run was set up" in result.error, result.output[-2000:]
 
 
 NEW_PAIR = "FIX\nrun 2\npair_style none\npair_style {style} volume mass\npair_coeff * * {coeff}\n"
