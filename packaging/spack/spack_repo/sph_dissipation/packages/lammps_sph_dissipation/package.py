@@ -18,7 +18,7 @@ class LammpsSphDissipation(Lammps):
     # (api v2.2) has what is used here, and that LAMMPS 4 Jul 2026 configures with the arguments of
     # cmake_args(), without KOKKOS.
     # Spack's hash does not know CLONE: after a change of the clone, install with --overwrite.
-    # The first release puts a resource() with the address and the SHA-256 of its archive in its place.
+    # A release with a public archive puts a resource() with its address and SHA-256 in the place of CLONE.
 
     # archives of LAMMPS as in cmake/ObtainLAMMPS.cmake; Spack's recipe has the same numbers
     version("20260704", sha256="be9deffba169d140c337fd29570d3f5469332ece7e77280cce998f6caaad5534")
