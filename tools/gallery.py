@@ -47,7 +47,7 @@ def readme():
             "`./sphd run NAME` builds LAMMPS with the package, runs an example, compares it with its reference, and draws its figures;",
             "`--help` behind it lists what it takes, `--no-run` draws the figures again.",
             "Particles are those of the largest run, the processor time is that of all runs together on one core of about 3.6 GHz.",
-            "Inputs run alone, too: `build/lmp -in examples/NAME/in.NAME`, the tutorial's as `in.1` to `in.8`.",
+            "Inputs run alone, too: `build/lmp -in examples/NAME/in.NAME`, the tutorial's as `in.1` to `in.8`; compressible_turbulence first needs the files of its `field.py`.",
             "A log in a folder is of the run that gave its results; this version can word a line of the log in another way.", "",
             "`tools/gallery.py` makes this page of [examples.csv](examples.csv).", ""]
     for topic, rows in topics():

@@ -36,7 +36,7 @@ class Probe:
     def __init__(self, out, name, columns, every=0.1):
         values = np.loadtxt(out / f"{name}.probe.txt").T
         self.t = every * np.arange(values.shape[1])
-        for column, value in zip(columns, values[1:], strict=True):
+        for column, value in zip(columns, values[1:]):
             setattr(self, column, value)
 
     def mean(self, what):
@@ -124,7 +124,7 @@ def plot(path, out, drops, slow, oscillations, sessiles):
     rest.axhline(CAPILLARY, color="0.6", lw=1)
     rest.set(xlabel="time", ylabel="largest mu v/sigma of a particle", title="coming to rest")
     rest.legend()
-    for (label, one), shape in zip(oscillations.items(), shapes, strict=True):
+    for (label, one), shape in zip(oscillations.items(), shapes):
         shape.plot(one.t, one.shape / one.shape[0], "C0-", lw=1.5, label="particles")
         shape.plot(one.t, one.exact / one.exact[0], "k--", lw=1.5, label="linear theory")
         shape.set(xlabel="time", ylabel="deformation over that at the beginning", title=label)
