@@ -347,9 +347,12 @@ void ComputeSPHSpectrum::sum_modes()
 
 void ComputeSPHSpectrum::set_dissipation()
 {
+  vector[POWER_CURL] = vector[POWER_DIV] = 0.0;
+  const Fluid *const mapped = fluid();
+  if (mapped->model->has_rheology()) return;    // each particle has its own viscosity
+
   // largest and smallest values, of all particles of all processors
 
-  const Fluid *const mapped = fluid();
   double own[4] = {-1.0, -1.0, -HUGE_VAL, -HUGE_VAL}, most[4];
   for (int i = 0; i < atom->nlocal; i++) {
     if (!is_mapped(mapped, i)) continue;

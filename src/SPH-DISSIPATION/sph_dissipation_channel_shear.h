@@ -21,7 +21,7 @@ ChannelClass(ShearChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// -a F V_i V_j/metric (u.r) r with the metric r^2, P2 (41), P3 (12), or r, P1 (15)
+// -a F V_i V_j/metric (u.r) r with the metric r^2, P2 (41), P3 (11), or r, P1 (15)
 template <bool BY_R> struct AlongR : PairTerm<ShearChannel, ShearChannel::ALONG_R> {
   static constexpr bool CENTRAL = true, BY_DISTANCE = BY_R;
   template <class Pair> static SPH_INLINE void add_central(Pair &pair)
@@ -79,7 +79,7 @@ namespace SPHDissipation {
   // morris:  f_i = -2 mu sum_j F u V_i V_j                    Laplacian of the velocity
   // espanol: f_i = -a sum_j F [u + (u.e) e] V_i V_j           P. Espanol, M. Revenga, Phys. Rev. E 67,
   //                                                           026705 (2003), with bulk term zero
-  // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (12)
+  // micropolar: f_i = -sum_j F V_i V_j [zeta1 (e.u*) e + zeta2 u*], u* = u - Omega_mean x r   P3 (6), (11)
   // micropolar mg/fr2: if zeta1 > 0, the term with zeta1 is the term of mg/fr2.  A negative zeta1 keeps the weight of zeta2:
   // with this weight, a negative zeta1 is admissible.
 
@@ -159,7 +159,7 @@ namespace SPHDissipation {
         (inertia * hsq);
   }
 
-  // Return zeta2 of a micropolar fluid; along_r is zeta1: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (29)-(32) with
+  // Return zeta2 of a micropolar fluid; along_r is zeta1: mu = zeta1/(2(n+2)) + zeta2/4, mu_r = zeta2/4; P3 (28) with
   // the bulk term
   inline double slip_coefficient(const PairFluid &fluid)
   {

@@ -20,7 +20,7 @@ ChannelClass(SpinChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// Torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (18)
+// Torque F V_i V_j [xi1 (s.e) e + xi2 s] on j, opposite on i, with s = w_i - w_j; P3 (25)
 struct SpinDiffusion : PairTerm<SpinChannel, SpinChannel::XI1, SpinChannel::XI2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)

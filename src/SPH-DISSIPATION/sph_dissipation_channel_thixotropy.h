@@ -14,7 +14,7 @@
 // Thixotropy: a structure of the fluid that shear breaks down and that builds up again, the state lambda of each particle, from
 // 0 to 1, with the rate of shear gamma:
 //   d lambda/dt = a (1 - lambda) - b gamma lambda,   mu + mu1 lambda in the place of mu
-// F. Moore, Trans. J. Br. Ceram. Soc. 58, 470 (1959).  The step is exact for a constant rate of shear.
+// F. Moore, Trans. Br. Ceram. Soc. 58, 470 (1959).  The step is exact for a constant rate of shear.
 // Included by sph_dissipation_channel_list.h; sph_dissipation_channels.h has the notation.
 
 #ifdef CHANNEL_CLASS

@@ -21,7 +21,7 @@ ChannelClass(VortexChannel)
 // clang-format on
 #elif defined(CHANNEL_TERMS)
 
-// Force -a F V_i V_j u*, and half of its torque on each particle, the same on both: 1/2 a F V_i V_j r x u*; P3 (18)
+// Force -a F V_i V_j u*, and half of its torque on each particle, the same on both: 1/2 a F V_i V_j r x u*; P3 (12)
 struct Slip : PairTerm<VortexChannel, VortexChannel::ZETA2> {
   static constexpr bool VECTOR = true, SPINS = true;
   template <class Pair> static SPH_INLINE void add_vector(Pair &pair)

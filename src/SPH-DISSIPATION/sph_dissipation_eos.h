@@ -51,7 +51,7 @@ namespace SPHDissipation {
 
   struct EosParams {
 
-    double rho0 = 1.0;     // reference density, mass/length^n
+    double rho0 = 1.0;     // reference density, mass/length^3 in every dimension
     double c0 = 0.0;       // adiabatic sound speed at rho0, and at the reference temperature
     double pb = 0.0;       // background pressure, at rho0 and at the reference temperature
     double gamma = 7.0;    // exponent of tait and ideal

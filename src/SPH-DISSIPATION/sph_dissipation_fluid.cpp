@@ -865,7 +865,7 @@ void Fluid::set_mean_density(int groupbit)
     for (int k = 0; k < MOST; k++) {
       density->run(neighbors(), nullptr, nullptr, not_fluid());
       state.run(groupbit, not_fluid(), pressures());
-      if (state.scale_masses(factor, open->bits()) < CLOSE) break;
+      if (state.scale_masses(factor, open->bits_of(groupbit)) < CLOSE) break;
     }
     state.report_masses(factor, style);
   });

@@ -51,7 +51,7 @@ template <bool BY_DISTANCE, class Real> SPH_INLINE Real metric_of(Real rsq)
     return rsq;
 }
 
-// Replace u by u* = u - (w_i + w_j)/2 x r with the spins w: the velocity of slip at the point of contact, P3 (12)
+// Replace u by u* = u - (w_i + w_j)/2 x r with the spins w: the velocity of slip at the point of contact, P3 (6)
 
 template <class Real>
 SPH_INLINE void slip_velocity(const double *w_i, const Real *w_j, const Real *r, Real *u)

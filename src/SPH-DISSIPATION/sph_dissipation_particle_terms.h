@@ -211,7 +211,7 @@ namespace SPHDissipation {
     SPH_FUNCTION double reference_volume(int i) const { return rmass[i] / types[type[i]].eos.rho0; }
 
     // Set the volume V = w/c, the mass density rho = m/V and its rate; particles of other styles keep their density.
-    // P1 (5), (6)
+    // P1 (1), (5), (16)
 
     SPH_FUNCTION void set_density(int i) const
     {

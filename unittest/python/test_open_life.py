@@ -223,6 +223,19 @@ def test_four_zones(lammps):
     assert min(table[f"f_{zone}[1]"][-1] for zone in ("left", "low")) > 20
 
 
+def test_zone_beside_another_fluid_of_its_type(lammps):
+    """density rho0 of two fluids: the zone gets the factor of its own fluid alone."""
+    lammps("units lj\ndimension 2\nboundary f p p\natom_style sph/bulk\nlattice sq 1.0\nregion box block -10 50 0 12 -0.5 0.5\ncreate_box 1 box\n"
+           + "".join(f"region {name} block {low} {high} INF INF INF INF\ncreate_atoms 1 region {name}\ngroup {name} region {name}\n"
+                     for name, low, high in (("zone", -9, -1), ("fluid", 0, 14), ("other", 30, 44)))
+           + "set group all mass 1.0\nset group other mass 1.3\npair_style sph/bulk\npair_coeff * * 1.0 1.0 0.1 0.2 3.0\nneighbor 0.53 bin\n"
+           "fix 1 fluid sph/bulk density rho0\nfix 2 other sph/bulk density rho0\n"
+           "fix in zone sph/open fluid -0.5 0 0 1 0 0 9 velocity 0 0 0\ntimestep 0.25\n" + dump("out.dump", 1) + "run 0\n")
+    frame = lammps.frame("out.dump")
+    x, mass = frame["x"][:, 0], frame["mass"]
+    assert (abs(mass - mass[x < 0][0]) < 1e-12).all() and abs(mass[0] - 1.0) < 0.02
+
+
 # ---------------------------------------------------------------------------------------------
 # LAMMPS around it
 

@@ -205,6 +205,16 @@ def test_viscosities_in_effect(lammps, shear, bulk, kappa):
     assert totals["power_curl"] == pytest.approx(0.7 * totals["curl2"], rel=EXACT)
 
 
+def test_viscosities_that_are_not_constant(lammps):
+    """The powers are 0, not those of the mu of pair_coeff; all else is as without the keyword."""
+    random_box(3, 6).write(lammps.path("box.data"))
+    text = header(3) + "read_data box.data\n" + fluid(3, mu=0.7) + INTEGRATE + measure((6, 6, 6)) + "run 0\n"
+    plain = totals_of(lammps(text))
+    found = totals_of(lammps(text.replace("fix ", "pair_coeff * * " + re.search(r"pair_coeff \* \* (.*)", text)[1] + " power 0.6 0.01 5\nfix ", 1)))
+    assert plain["power_curl"] > 0.0 and plain["power_div"] > 0.0
+    assert found == {**plain, "power_curl": 0.0, "power_div": 0.0}
+
+
 # ---------------------------------------------------------------------------------------------
 # ranks
 
