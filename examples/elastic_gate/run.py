@@ -18,7 +18,8 @@ from run_lammps import Example, csv_rows, frames, pyplot, save, thermo      # no
 # Of SPHinXsys, in mm: its tutorial (sphinxsys.csv), and two versions of the results that its test of the gate compares with
 LARGEST_X, LARGEST_Y = (42.8, 45.8, 46.4), (15.6, 19.6, 20.2)
 LAST_X, LAST_Y = (31.2, 31.9, 34.1), (8.1, 9.0, 10.4)
-JOBS = {"coarse": {"rows": 3}, "gate": {"rows": 4}}
+# soft: four particles with their areas have the bending stiffness of a plate times 1 - 1/16
+JOBS = {"coarse": {"rows": 3}, "gate": {"rows": 4}, "soft": {"rows": 4, "E": 7.8e6 * (1 - 1 / 4**2)}}
 QUICK = {"quick": {"rows": 3, "end": 0.03}}
 SHOWN = 1, 3, 10      # frames of the picture
 
@@ -48,7 +49,7 @@ def plot(path, runs, other):
         axes.grid(False)
     for axes, part, title in zip(bottom.subplots(1, 2), "xy", ("tip, to the left, mm", "tip, upward, mm")):
         for name, run in runs.items():
-            axes.plot(run.t, getattr(run, part), lw=1.0, label=f"{run.rows} rows")
+            axes.plot(run.t, getattr(run, part), lw=1.0, label=f"{run.rows} rows{', soft' * (name == 'soft')}")
         axes.plot(other["t"], other[part], "k--", lw=1.2, label="SPHinXsys, tutorial")
         values = LARGEST_X if part == "x" else LARGEST_Y
         axes.axhspan(min(values), max(values), color="k", alpha=0.12, lw=0, label="SPHinXsys, largest")
