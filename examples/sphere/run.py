@@ -10,9 +10,11 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from scipy.special import wofz
 
 HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
+import stokes                                                             # noqa: E402
 from run_lammps import Example, csv_rows, pyplot, save, series, thermo      # noqa: E402
 
 # drag of simple cubic arrays over that of Stokes, by volume fraction: A. A. Zick, G. M. Homsy, J. Fluid Mech. 115, 13 (1982)
@@ -25,10 +27,11 @@ COLLOID = dict(n=10, radius=2.0, force=0.0, shear="mg", kernel="wendland/c2", mu
 KAPPA = {"zero": 0.0, "ten": 1.0}
 COLD = dict(dt=0.24, steps=1000)
 NOISE = dict(T=0.001, dt=0.03, every=16, steps=100000)
-SEEDS = 1, 2
+SEEDS = range(1, 9)
 SETTLE = 200                    # outputs before the means
 PIECES = 10                     # of each run, for the standard errors
-LAGS = 1.0, 3.0                 # times of the slope of the mean square displacement, over L^2 rho/(4 pi^2 mu)
+LAGS = 0.5, 1.5                 # times of the slope of the mean square displacement, over L^2 rho/(4 pi^2 mu)
+TIMES = 2.0, 10.0               # of the tail, over a^2/nu
 QUICK = {"drag_10": dict(n=10, radius=3.0, steps=110), "turn_10": dict(n=10, radius=3.0, steps=60)}
 QUICK_NOISE, QUICK_COLD, QUICK_LAGS = dict(every=4, steps=3200), dict(steps=300), (0.02, 0.1)
 
@@ -75,14 +78,24 @@ class Run:
         return np.interp(self.drag() * self.a, radii * array(4 / 3 * np.pi * radii**3 / self.L**3), radii)
 
     def couple(self):
-        """over that of a sphere alone, without the part of the array: 1/(1 - phi) if the mean vorticity is zero"""
-        return TORQUE / (8 * np.pi * self.mu * self.a**3 * self.end("oz")) * (1 - self.phi)
+        """over the couple of a sphere in the array"""
+        return TORQUE / (8 * np.pi * self.mu * self.a**3 * self.end("oz")) / stokes.array(self.phi)[1]
 
     def tail(self):
-        """Velocity after a kick, and that of the momentum which diffuses in the box: sum over waves of 2/3 exp(-nu k^2 t)"""
-        waves = np.arange(-12, 13) * 2 * np.pi / self.L
-        one = np.exp(-self.mu * waves**2 * self.t[:, None]).sum(axis=1)
-        return self.series["vx"] / (KICK * self.N / (1 - self.phi)), 2 / 3 * (one**3 - 1) / self.L**3
+        """Velocity after a kick, and that of a sphere of the density of the fluid by the equations of Stokes, in a periodic box.
+        The sphere alone has the mobility 1/(1 + q + q^2/3)/(6 pi mu a), q = a (s/nu)^(1/2), in the time of Laplace: the force of A. B. Basset;
+        R. Zwanzig, M. Bixon, Phys. Rev. A 2, 2005 (1970).  The box changes an integral over waves, (1 - a^2 k^2/3) 2/3 exp(-nu k^2 t), to a sum.
+        """
+        tau = np.maximum(self.t * self.mu / self.a**2, 1e-9)
+        pole = np.array([[-3 + 1j * np.sqrt(3)], [-3 - 1j * np.sqrt(3)]]) / 2
+        one, two = pole * wofz(-1j * pole * np.sqrt(tau))
+        alone = (3 * (one - two) / (pole[0] - pole[1])).real
+        waves = np.arange(-64, 65) * 2 * np.pi / self.L
+        decay = np.exp(-self.mu * waves**2 * self.t[:, None])
+        line, bend = decay.sum(axis=1), (waves**2 * decay).sum(axis=1)
+        box = 2 / 3 * (line**3 - 1 - self.a**2 * bend * line**2) / self.L**3
+        return (self.series["vx"] / (KICK * self.N / (1 - self.phi)),
+                box + (alone - (1 - 0.5 / tau) * tau**-1.5 / (2 * np.sqrt(np.pi))) / (6 * np.pi * self.a**3))
 
 
 class Colloid:
@@ -102,11 +115,13 @@ class Colloid:
         self.t, self.run = self.lags * interval, run
         self.translation, self.rotation = mean(translation), mean(rotation)
         near, far = (int(lag * run.tau / interval) for lag in lags)
-        self.diffusion = mean([(one[far] - one[near]) / (self.t[far] - self.t[near]) for one in spreads])
         self.spread, self.correlation, self.scatter = np.mean(spreads, axis=0), np.mean(correlations, axis=0), mean(correlations)[1]
         self.hasimoto = 1 / (6 * np.pi * run.mu * run.a * array(run.phi))
         pull = Run(out, f"pull_{name}", **COLLOID, **COLD)
         self.mobility = pull.end("vx") / FORCE * (1 - pull.phi)
+        self.pulled = pull.t, (pull.series["x"] - pull.series["x"][0]) / FORCE * (1 - pull.phi)
+        begin, end = np.interp(self.t[[near, far]], *self.pulled)
+        self.einstein = mean([(one[far] - one[near]) / (end - begin) for one in spreads])
         kick = Run(out, f"cold_{name}", **COLLOID, **COLD)
         self.response = kick.t, kick.series["vx"] / KICK
 
@@ -124,17 +139,17 @@ def plot(path, arrays, tails, colloids):
         value, theory = run.tail()
         time = run.t * run.mu / run.a**2
         tail.loglog(time[1:], value[1:] * run.a**3, f"C{index}o", ms=3, mfc="none", label=f"radius {run.a:.2f} spacings")
-        tail.loglog(time[1:], theory[1:] * run.a**3, f"C{index}-", lw=0.8, label="diffusion of momentum in the box")
+        tail.loglog(time[1:], theory[1:] * run.a**3, f"C{index}-", lw=0.8, label="equations of Stokes, in the box")
     time = np.geomspace(0.5, 20, 50)
     tail.loglog(time, 1 / 12 / (np.pi * time)**1.5, "k:", label="$t^{-3/2}$, infinite fluid")
-    tail.set(xlabel="$\\nu t/a^2$", ylim=(1e-5, 0.3), title="velocity after a kick, $V \\rho a^3/P$")
+    tail.set(xlabel="$\\nu t/a^2$", ylim=(1e-4, 0.3), title="velocity after a kick, $V \\rho a^3/P$")
     for index, (name, one) in enumerate(colloids.items()):
         label = f"$\\kappa/\\mu$ = {KAPPA[name] / COLLOID['mu']:.0f}"
         spread.plot(one.t, one.spread, f"C{index}o", ms=3, mfc="none", label=label)
-        spread.plot(one.t[-2:], one.spread[-1] + one.hasimoto * (one.t[-2:] - one.t[-1]), "k-")
+        spread.plot(*one.pulled, f"C{index}-", lw=0.8, label="displacement by a force, no noise")
         correlation.errorbar(one.t, one.correlation, one.scatter, color=f"C{index}", fmt="o", ms=2, lw=0.5, mfc="none", label=label)
         correlation.plot(*one.response, f"C{index}-", lw=0.8, label="velocity after a kick, no noise")
-    spread.set(xlabel="time", title="mean square displacement$/2k_BT$")
+    spread.set(xlabel="time", xlim=(0, one.t[-1]), ylim=(0, 1.1 * one.spread[-1]), title="mean square displacement$/2k_BT$")
     correlation.set(xlabel="time", xlim=(0, one.t[-1]), title="correlation of the velocity, $M \\langle V(0) V(t)\\rangle/k_BT$")
     save(figure, path, legends=(drag, tail, spread, correlation))
 
@@ -169,37 +184,38 @@ def main():
             writerow(["couple", f"{run.phi:.5f}", f"{run.a:.3f}", "", f"{run.couple():.4f}", ""])
         for run in kicks:
             value, theory = run.tail()
-            print(f"\nkick, radius {run.a:.3f}: nu t/a^2, velocity over that of the diffusion of momentum")
+            print(f"\nkick, radius {run.a:.3f}: nu t/a^2, velocity over that by the equations of Stokes")
             for time in (1, 2, 3, 4, 6, 8, 10):
                 k = np.searchsorted(run.t * run.mu / run.a**2, time)
                 if k < len(value):
                     print(f"{time:3d}  {value[k] / theory[k]:.4f}")
                     writerow(["kick", time, f"{run.a:.3f}", f"{value[k]:.4g}", f"{value[k] / theory[k]:.4f}", ""])
         colloids = {name: Colloid(example.out, name, seeds, lags) for name in KAPPA}
-        print("\nkappa/mu  M V^2/kT  error   I Omega^2/kT  error   D/kT    error   Hasimoto  mobility  D over kT times mobility")
+        print("\nkappa/mu  M V^2/kT  error   I Omega^2/kT  error   mobility  Hasimoto  D over kT times mobility  error")
         for name, one in colloids.items():
-            values = KAPPA[name] / COLLOID["mu"], *one.translation, *one.rotation, *one.diffusion, one.hasimoto, one.mobility, one.diffusion[0] / one.mobility
-            print("{:8.0f}  {:8.4f}  {:.4f}  {:12.4f}  {:.4f}  {:.4f}  {:.4f}  {:.4f}    {:.4f}    {:.3f}".format(*values))
-            for what, (value, error), reference in (("translation", one.translation, 1), ("rotation", one.rotation, 1), ("D/kT", one.diffusion, one.hasimoto)):
-                writerow([what, values[0], f"{one.run.a:.3f}", f"{value:.4f}", f"{value / reference:.4f}", f"{error / reference:.4f}"])
+            values = KAPPA[name] / COLLOID["mu"], *one.translation, *one.rotation, one.mobility, one.hasimoto, *one.einstein
+            print("{:8.0f}  {:8.4f}  {:.4f}  {:12.4f}  {:.4f}  {:8.4f}  {:8.4f}  {:12.4f}  {:.4f}".format(*values))
+            for what, (value, error) in (("translation", one.translation), ("rotation", one.rotation), ("D over kT times mobility", one.einstein)):
+                writerow([what, values[0], f"{one.run.a:.3f}", f"{value:.4f}", f"{value:.4f}", f"{error:.4f}"])
             writerow(["mobility", values[0], f"{one.run.a:.3f}", f"{one.mobility:.4f}", f"{one.mobility / one.hasimoto:.4f}", ""])
     print()
     for run in arrays:
         example.merit(f"drag at phi = {run.phi:.3f}, radius {run.a:.2f}, over the published one", run.drag() / array(run.phi), 0.97 - 0.2 * args.quick, 1.03)
     for run in couples:
         example.merit(f"couple at phi = {run.phi:.3f}, radius {run.a:.2f}, over that in the array", run.couple(), 0.97 - 0.2 * args.quick, 1.03)
+        example.merit(f"drag of stokes.py at phi = {run.phi:.3f}, over the published one", stokes.array(run.phi)[0] / array(run.phi), 0.999, 1.001)
     for run in kicks:
         value, theory = run.tail()
-        late = (run.t * run.mu / run.a**2 > 4) & (run.t * run.mu / run.a**2 < 10)
+        late = (run.t * run.mu / run.a**2 > TIMES[0]) & (run.t * run.mu / run.a**2 < TIMES[1])
         for what, bound in (("least", np.min), ("largest", np.max)):
-            example.merit(f"velocity after a kick over that of the diffusion of momentum, {what} for 4 < nu t/a^2 < 10", bound(value[late] / theory[late]), 0.9, 1.1)
+            example.merit(f"velocity after a kick over that by the equations of Stokes, {what} for {TIMES[0]:.0f} < nu t/a^2 < {TIMES[1]:.0f}", bound(value[late] / theory[late]), 0.9, 1.1)
     width = 5 if args.quick else 3
     for name, one in colloids.items():
         for kind, (value, error) in (("translation", one.translation), ("rotation", one.rotation)):
             example.merit(f"kappa/mu = {KAPPA[name] / COLLOID['mu']:.0f}: temperature of the {kind}", value, 1 - width * error, 1 + width * error)
         if not args.quick:
-            bar = max(0.05, width * one.diffusion[1] / one.mobility)
-            example.merit(f"kappa/mu = {KAPPA[name] / COLLOID['mu']:.0f}: D over kT times the mobility", one.diffusion[0] / one.mobility, 1 - bar, 1 + bar)
+            bar = max(0.05, width * one.einstein[1])
+            example.merit(f"kappa/mu = {KAPPA[name] / COLLOID['mu']:.0f}: D over kT times the mobility", one.einstein[0], 1 - bar, 1 + bar)
     picture = example.out / "sphere.png"
     plot(picture, arrays, kicks, colloids)
     return example.finish(table, picture)

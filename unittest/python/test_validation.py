@@ -84,6 +84,8 @@ WHERE = {
     "Rising bubble, smallest": (("results.txt", rf"^TP2D +{N}"), ("results.txt", rf"^n80 +{N}")),
     "Gas at rest": (None, ("results.txt", r"^gamma 1\.6667, kappa/mu 1, diffusivity 0\.45:(?:.*\n){5}.*Brillouin lines.*\): " + N)),
     "Disc in a fluctuating fluid": (None, ("results.txt", rf"^ *10 .* {N}  \S+$")),
+    "Couple of a sphere": (None, ("results.txt", rf"^0\.22266 +\S+ +{N}$")),
+    "Velocity of a sphere after a kick": (None, ("results.txt", rf"^ +4 +{N}$")),
     "Sphere in a cubic array": (("results.txt", rf"^0\.22512 +\S+ +\S+ +{N}"), ("results.txt", rf"^0\.22512 +\S+ +{N}")),
     "Beam of bonds under a column of water": (None, ("results.txt", rf"^fine: deflection over theory: {N}")),
     "The same, frequency over theory": (None, ("results.txt", rf"^fine: frequency over theory: {N}")),
