@@ -17,7 +17,7 @@ from run_lammps import Example, csv_rows, pyplot, save, series, thermo      # no
 ARRIVAL, PEAK = 0.393, 11240.0          # of P1 in the experiment, with all of its samples: above 200 Pa, and largest
 ABOVE = 200.0
 CASES = {"n18": {"n": 18}}
-FINE = {"n36": {"n": 36}}
+FINE = {"n36": {"n": 36, "kappa": 0.15, "end": 0.52}}
 QUICK = {"quick": {"n": 8, "end": 0.6}}
 LEVELS = "H1", "H2", "H3", "H4"
 SHOWN = "P1", "P3", "P5", "H1", "H2", "H4"
@@ -32,7 +32,8 @@ class Run:
         (table,) = thermo((out / f"{name}.log").read_text())
         self.atoms = table["Atoms"]
         p = self.gauges["P1"]
-        self.arrival = self.t[np.argmax(p > ABOVE)] if (p > ABOVE).any() else np.inf
+        first = np.argmax(p > ABOVE)
+        self.arrival = np.interp(ABOVE, p[first - 1:first + 1], self.t[first - 1:first + 1]) if first else np.inf
         self.peak = p.max()
 
     def mean(self, name, begin, end):
@@ -53,12 +54,12 @@ def read(path):
 
 def plot(path, runs, data):
     plt = pyplot()
-    last = list(runs.values())[-1]
+    shown = list(runs.values())[0]
     figure = plt.figure(figsize=(9.6, 8.0))
     top, bottom = figure.subfigures(2, 1, height_ratios=[0.8, 1.0])
     for axes, k in zip(top.subplots(2, 2).ravel(), (2, 3, 5, 10)):
-        k = min(k, len(last.pictures) - 1)
-        axes.imshow(plt.imread(last.pictures[k])[100:])
+        k = min(k, len(shown.pictures) - 1)
+        axes.imshow(plt.imread(shown.pictures[k])[100:])
         axes.set_title(f"t = {0.2 * k:g} s", loc="left")
         axes.axis("off")
     for axes, name in zip(bottom.subplots(2, 3).ravel(), SHOWN):
@@ -77,7 +78,7 @@ def plot(path, runs, data):
 
 def main():
     example = Example(HERE, __doc__.splitlines()[0])
-    example.parser.add_argument("--fine", action="store_true", help="36 particles per height as well: hours")
+    example.parser.add_argument("--fine", action="store_true", help="36 particles per height as well, to 0.52 s: an hour")
     args = example.arguments()
     cases = QUICK if args.quick else {**CASES, **FINE} if args.fine else CASES
     example.run(dict(reversed(cases.items())), {name: HERE / "in.obstacle" for name in cases})
@@ -91,11 +92,11 @@ def main():
         for name, run in runs.items():
             means = [run.mean(one[:2], *window) for one, window in zip(names, MEANS * 4)]
             distances = [run.distance(data, level) for level in LEVELS]
-            writerow([name, f"{run.t[-1]:.2f}", f"{run.arrival:.4f}", f"{run.peak:.0f}", *(f"{value:.0f}" for value in means),
+            writerow([name, f"{run.t[-1]:.2f}", f"{run.arrival:.4f}", f"{run.peak:.0f}", *(f"{value:.0f}" if np.isfinite(value) else "" for value in means),
                       *(f"{value:.4f}" for value in distances)])
             print(f"\n{name}: {run.atoms[0]:.0f} particles with the walls, to {run.t[-1]:.2f} s; spray that has left: "
                   f"{run.atoms[0] - run.atoms[-1]:.0f}\narrival {run.arrival:.4f} s, peak of P1 {run.peak:.0f} Pa; "
-                  + ", ".join(f"{one} s {value:.0f} Pa" for one, value in zip(names, means))
+                  + ", ".join(f"{one} s {value:.0f} Pa" for one, value in zip(names, means) if np.isfinite(value))
                   + "\nmean distance of levels over the largest: " + ", ".join(f"{level} {value:.3f}" for level, value in zip(LEVELS, distances)))
     print()
     for name, run in runs.items():
