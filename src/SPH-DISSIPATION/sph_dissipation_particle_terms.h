@@ -297,14 +297,24 @@ namespace SPHDissipation {
       return bound && beyond_bound(types[type[i]].zeta, bound[i]);
     }
 
+    // Return the factor of a positive zeta below the density without pressure, 1 with tension.  A particle without neighbors
+    // has a large volume V, and the rate of its bulk term goes with V^3: with this factor the rate is that of the fluid.
+
+    SPH_FUNCTION double share_of_bulk(int i) const
+    {
+      const double without_pressure = types[type[i]].eos.rho_min;
+      return (rho[i] < without_pressure) ? whole_power(rho[i] / without_pressure, 3) : 1.0;
+    }
+
     // Return the coefficient of the bulk term that acts: at the viscosity of the particle, or within the bound
 
     SPH_FUNCTION double zeta(int i, const double *bound) const
     {
       const TypeParameters &own = types[type[i]];
-      if (par.by_rate) return own.zeta_at_0 + own.zeta_by_mu * viscosity[i];
-      if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
-      return own.zeta;
+      if (!par.by_rate && par.limit == Limit::YES && is_beyond(i, bound))
+        return zeta_at_bound(bound[i]);
+      const double all = par.by_rate ? own.zeta_at_0 + own.zeta_by_mu * viscosity[i] : own.zeta;
+      return (all > 0.0) ? all * share_of_bulk(i) : all;
     }
 
     // Set the rate of shear of an owned particle from the sum of shear_rate_squared(); 0: not fluid

@@ -138,6 +138,27 @@ def test_fast_drops_stay_outside(lammps, dim, speed):
     assert table["c_speed"].max() < 2.5 * speed and table["KinEng"].max() <= table["KinEng"][0] and table["KinEng"][-1] < 0.3 * table["KinEng"][0]
 
 
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("support", [3, 4])
+def test_lone_particle_at_a_wall(lammps, dim, support):
+    """Spray from inside of the fluid has the density of its own kernel. Its velocity to a wall decays as that of a particle with rho0."""
+    lattice, third = ("sq", "-0.5 0.5") if dim == 2 else ("sc", "0 12")
+    own = 7 / (4 * np.pi * (support / 2)**2) if dim == 2 else 21 / (16 * np.pi * (support / 2)**3)
+
+    def velocity(rho):
+        text = (f"units lj\ndimension {dim}\nboundary p f p\natom_style sph/bulk\nlattice {lattice} 1.0 origin 0.5 0.5 {0.0 if dim == 2 else 0.5}\n"
+                f"region box block 0 12 -4 12 {third}\ncreate_box 2 box\nregion floor block INF INF INF 0 INF INF\ncreate_atoms 2 region floor\n"
+                f"create_atoms 1 single 5.5 0.4 {0.0 if dim == 2 else 5.5} units box\ngroup water type 1\ngroup floor type 2\nset group all mass 1.0\n"
+                f"neighbor 0.3 bin\npair_style sph/bulk density continuity\npair_coeff * * 1.0 1.0 1e-6 {0.3 * support} {support}\n"
+                f"set group water sph/rho {rho}\nvelocity water set 0.3 0.01 0.0\nfix w floor sph/wall slip free\nfix 1 water sph/bulk\ntimestep 0.37\n"
+                "variable v equal vcm(water,y)\nthermo_style custom step v_v\nthermo_modify norm no lost ignore\nthermo 1\nrun 40\n")
+        return lammps(text).thermo()[-1]["v_v"]
+
+    spray, reference = velocity(own), velocity(1.0)
+    assert len(spray) == 41 and (np.diff(spray) < 0).all() and spray[-1] > 0
+    assert spray == pytest.approx(reference, rel=0.3)
+
+
 def test_no_warning_about_the_lattice_of_a_long_run(lammps):
     """The hydrostatic pressure on a hexagonal lattice is no background pressure that somebody could leave out."""
     check(lammps(dam(commands="variable step equal step\nfix end all halt 1 v_step >= 1 error continue\nrun 20000\n", **CASES["hexagonal"])))
