@@ -132,9 +132,8 @@ namespace SPHDissipation {
         draw_for_particle(word, step, keys, static_cast<double>(tag[i]));
         const Particle &particle = rows.particle[i];
         const double c_inv = particle.vol / rows.weight[i * rows.each];
-        const double strength = sqrt(factor * zeta) * sqrt(rows.share_of_bulk(i));
         rows.particle[i].g +=
-            strength * uniform(word[0][0], 1.0) / sqrt(particle.vol) * c_inv * c_inv;
+            sqrt(factor * zeta) * uniform(word[0][0], 1.0) / sqrt(particle.vol) * c_inv * c_inv;
       }
     };
 

@@ -299,14 +299,13 @@ void NoiseStage::add_pressure(double factor, int not_fluid)
     if (!(strength > 0.0) || (atom->mask[i] & not_fluid)) return;
     Particle &particle = engine.particle[i];
     const double c_inv = particle.vol / engine.weight(i);
-    const double share = engine.rows().share_of_bulk(i);
     if (energy) {
-      const double own = pressure[i] * sqrt(strength * share * row[i].temperature / particle.vol);
+      const double own = pressure[i] * sqrt(strength * row[i].temperature / particle.vol);
       row[i].pressure = own * c_inv * c_inv;
       engine.zeta_term[i] += own;
       particle.g += row[i].pressure;
     } else
-      particle.g += strength * sqrt(share) * pressure[i] / sqrt(particle.vol) * c_inv * c_inv;
+      particle.g += strength * pressure[i] / sqrt(particle.vol) * c_inv * c_inv;
   });
 }
 

@@ -211,7 +211,9 @@ namespace SPHDissipation {
     SPH_FUNCTION double reference_volume(int i) const { return rmass[i] / types[type[i]].eos.rho0; }
 
     // Set the volume V = w/c, the mass density rho = m/V and its rate; particles of other styles keep their density.
-    // P1 (1), (5), (16)
+    // P1 (1), (5), (16).  vfrac = V, of the pressure and its work; particle.vol = volume of the dissipation function, V with
+    // tension, at most m/rho_min without: a lone particle of spray has only its own term of c, the rate of its bulk term goes
+    // with vol^3, and would be far above that of the fluid.
 
     SPH_FUNCTION void set_density(int i) const
     {
@@ -223,6 +225,8 @@ namespace SPHDissipation {
       rho[i] = mass * density[i].c;
       drho[i] = mass * density[i].cdot;
       vfrac[i] = vol;
+      const double rho_min = types[type[i]].eos.rho_min;
+      if (rho[i] < rho_min) particle[i].vol = rmass[i] / rho_min;
     }
 
     // Density continuity: replace c of an owned particle, the sum of pass 1, by rho/m.  Add the change of the sum since the
@@ -297,13 +301,11 @@ namespace SPHDissipation {
       return bound && beyond_bound(types[type[i]].zeta, bound[i]);
     }
 
-    // Return the factor of a positive zeta below the density without pressure, 1 with tension.  A particle without neighbors
-    // has a large volume V, and the rate of its bulk term goes with V^3: with this factor the rate is that of the fluid.
+    // Return the rate of shrinking -div u in the dissipation function
 
-    SPH_FUNCTION double share_of_bulk(int i) const
+    SPH_FUNCTION double shrinking(int i) const
     {
-      const double without_pressure = types[type[i]].eos.rho_min;
-      return (rho[i] < without_pressure) ? whole_power(rho[i] / without_pressure, 3) : 1.0;
+      return density[i].cdot * (particle[i].vol / weight[i * each]);
     }
 
     // Return the coefficient of the bulk term that acts: at the viscosity of the particle, or within the bound
@@ -311,10 +313,9 @@ namespace SPHDissipation {
     SPH_FUNCTION double zeta(int i, const double *bound) const
     {
       const TypeParameters &own = types[type[i]];
-      if (!par.by_rate && par.limit == Limit::YES && is_beyond(i, bound))
-        return zeta_at_bound(bound[i]);
-      const double all = par.by_rate ? own.zeta_at_0 + own.zeta_by_mu * viscosity[i] : own.zeta;
-      return (all > 0.0) ? all * share_of_bulk(i) : all;
+      if (par.by_rate) return own.zeta_at_0 + own.zeta_by_mu * viscosity[i];
+      if (par.limit == Limit::YES && is_beyond(i, bound)) return zeta_at_bound(bound[i]);
+      return own.zeta;
     }
 
     // Set the rate of shear of an owned particle from the sum of shear_rate_squared(); 0: not fluid
@@ -322,7 +323,7 @@ namespace SPHDissipation {
     SPH_FUNCTION void set_shear_rate(int i, double sum, int not_fluid) const
     {
       const double square = is_fluid(i, not_fluid)
-          ? shear_rate_squared(par.dim, par.rate_factor, sum, density[i].cdot / density[i].c)
+          ? shear_rate_squared(par.dim, par.rate_factor, sum, shrinking(i))
           : 0.0;
       shear_rate[i] = (square > 0.0) ? sqrt(square) : 0.0;
     }
@@ -360,7 +361,7 @@ namespace SPHDissipation {
     {
       if (!is_fluid(i, not_fluid)) return;
       const EosParams &eos = types[type[i]].eos;
-      const double shrinks = time * particle[i].vol * density[i].cdot / density[i].c;
+      const double shrinks = time * vfrac[i] * density[i].cdot / density[i].c;
       const double by_mass = 1.0 / rmass[i];
       double p = pressure(par.eos, eos, rho[i], esph[i] * by_mass);
       if (par.states) p += state_pressure[i];
@@ -407,7 +408,7 @@ namespace SPHDissipation {
       for (int d = 0; d < par.dim; d++) row[d] = particle[i].x[d];
       if (par.dim == 1) row[0] += particle[i].x[1];    // of a line along x or y
       const bool takes_part = diffuses(i, not_fluid, integrated);
-      row[vol] = takes_part ? particle[i].vol : 0.0;
+      row[vol] = takes_part ? vfrac[i] : 0.0;
       row[vol + 1] = takes_part ? pressure(par.eos, eos, rho[i], esph[i] / rmass[i]) : 0.0;
       impedance = types[type[i]].other ? par.impedance : eos.impedance();
     }
@@ -428,7 +429,7 @@ namespace SPHDissipation {
     };
     SPH_FUNCTION Work work(int i) const
     {
-      const double rate = particle[i].vol * density[i].cdot / density[i].c;
+      const double rate = vfrac[i] * density[i].cdot / density[i].c;
       const double thermal =
           thermal_pressure(types[type[i]].eos, rho[i], states.thermal_energy(i) / rmass[i]);
       return {thermal * rate, (total_pressure(i) - thermal) * rate};
@@ -439,17 +440,12 @@ namespace SPHDissipation {
 
     SPH_FUNCTION void set_pressure(int i, const double *bound, int not_fluid) const
     {
-      if (!is_fluid(i, not_fluid)) {
-        zeta_term[i] = particle[i].g = 0.0;
-        return;
-      }
-      const double vol = particle[i].vol, w = weight[i * each];
-      const double rate = density[i].cdot * (vol / w);
+      set_bulk_term(i, bound, not_fluid);
+      if (!is_fluid(i, not_fluid)) return;
+      const double vol = vfrac[i], w = weight[i * each];
       const double p = total_pressure(i);
-      const double bulk_term = zeta(i, bound) * rate;
-      zeta_term[i] = bulk_term;
-      particle[i].g = pressure_term((par.bulk == Bulk::DENSITY) ? p + bulk_term : p, vol, w);
-      if (i < nlocal) desph[i] += p * vol * rate;
+      particle[i].g += pressure_term(p, vol, w);
+      if (i < nlocal) desph[i] += p * vol * density[i].cdot * (vol / w);
     }
 
     // The bulk term alone
@@ -458,7 +454,7 @@ namespace SPHDissipation {
     {
       zeta_term[i] = particle[i].g = 0.0;
       if (!is_fluid(i, not_fluid)) return;
-      zeta_term[i] = zeta(i, bound) * density[i].cdot / density[i].c;
+      zeta_term[i] = zeta(i, bound) * shrinking(i);
       if (par.bulk == Bulk::DENSITY)
         particle[i].g = pressure_term(zeta_term[i], particle[i].vol, weight[i * each]);
     }
