@@ -210,23 +210,26 @@ namespace SPHDissipation {
 
     SPH_FUNCTION double reference_volume(int i) const { return rmass[i] / types[type[i]].eos.rho0; }
 
+    // Return the volume of the equation of state, m/rho
+
+    SPH_FUNCTION double elastic_volume(int i) const { return rmass[i] / rho[i]; }
+
     // Set the volume V = w/c, the mass density rho = m/V and its rate; particles of other styles keep their density.
-    // P1 (1), (5), (16).  vfrac = V, of the pressure and its work; particle.vol = volume of the dissipation function, V with
-    // tension, at most m/rho_min without: a lone particle of spray has only its own term of c, the rate of its bulk term goes
-    // with vol^3, and would be far above that of the fluid.
+    // P1 (1), (5), (16).  Without tension, V is at most m/rho_min: a lone particle of spray has only its own term of c, and the
+    // rate of its bulk term, which goes with V^3, would be far above that of the fluid.
 
     SPH_FUNCTION void set_density(int i) const
     {
       const double w = weight[i * each];
-      const double vol = w / density[i].c;
+      double vol = w / density[i].c;
       particle[i].vol = vol;
       if (par.shared && types[type[i]].other) return;
       const double mass = rmass[i] / w;
       rho[i] = mass * density[i].c;
       drho[i] = mass * density[i].cdot;
-      vfrac[i] = vol;
       const double rho_min = types[type[i]].eos.rho_min;
-      if (rho[i] < rho_min) particle[i].vol = rmass[i] / rho_min;
+      if (rho[i] < rho_min) particle[i].vol = vol = rmass[i] / rho_min;
+      vfrac[i] = vol;
     }
 
     // Density continuity: replace c of an owned particle, the sum of pass 1, by rho/m.  Add the change of the sum since the
@@ -361,7 +364,7 @@ namespace SPHDissipation {
     {
       if (!is_fluid(i, not_fluid)) return;
       const EosParams &eos = types[type[i]].eos;
-      const double shrinks = time * vfrac[i] * density[i].cdot / density[i].c;
+      const double shrinks = time * elastic_volume(i) * density[i].cdot / density[i].c;
       const double by_mass = 1.0 / rmass[i];
       double p = pressure(par.eos, eos, rho[i], esph[i] * by_mass);
       if (par.states) p += state_pressure[i];
@@ -408,7 +411,7 @@ namespace SPHDissipation {
       for (int d = 0; d < par.dim; d++) row[d] = particle[i].x[d];
       if (par.dim == 1) row[0] += particle[i].x[1];    // of a line along x or y
       const bool takes_part = diffuses(i, not_fluid, integrated);
-      row[vol] = takes_part ? vfrac[i] : 0.0;
+      row[vol] = takes_part ? elastic_volume(i) : 0.0;
       row[vol + 1] = takes_part ? pressure(par.eos, eos, rho[i], esph[i] / rmass[i]) : 0.0;
       impedance = types[type[i]].other ? par.impedance : eos.impedance();
     }
@@ -429,7 +432,7 @@ namespace SPHDissipation {
     };
     SPH_FUNCTION Work work(int i) const
     {
-      const double rate = vfrac[i] * density[i].cdot / density[i].c;
+      const double rate = elastic_volume(i) * density[i].cdot / density[i].c;
       const double thermal =
           thermal_pressure(types[type[i]].eos, rho[i], states.thermal_energy(i) / rmass[i]);
       return {thermal * rate, (total_pressure(i) - thermal) * rate};
@@ -442,7 +445,7 @@ namespace SPHDissipation {
     {
       set_bulk_term(i, bound, not_fluid);
       if (!is_fluid(i, not_fluid)) return;
-      const double vol = vfrac[i], w = weight[i * each];
+      const double vol = elastic_volume(i), w = weight[i * each];
       const double p = total_pressure(i);
       particle[i].g += pressure_term(p, vol, w);
       if (i < nlocal) desph[i] += p * vol * density[i].cdot * (vol / w);
