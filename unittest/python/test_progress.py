@@ -181,8 +181,9 @@ def test_one_run_per_folder(tmp_path, script):
     for pid in pids:
         os.kill(pid, signal.SIGKILL)
     time.sleep(0.3)
+    (tmp_path / "results" / "pids").unlink()
     fourth = script()
-    time.sleep(1)
+    ids(tmp_path / "results")
     fourth.terminate()
     assert "SIGTERM ends all runs" in fourth.communicate(timeout=30)[0]
 
