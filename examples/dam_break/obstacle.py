@@ -14,7 +14,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 from run_lammps import Example, csv_rows, pyplot, save, series, thermo      # noqa: E402
 
-CASES = {"n18": {"n": 18}}
+CASES = {"n18": {"n": 18, "end": 6.0}}
 FINE = {"n36": {"n": 36, "kappa": 0.15, "end": 0.52}}
 QUICK = {"quick": {"n": 8, "end": 0.6}}
 LEVELS = "H1", "H2", "H3", "H4"
